@@ -1,0 +1,2 @@
+// The quell command.
+int main() { return 0; }

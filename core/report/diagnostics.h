@@ -1,0 +1,64 @@
+// Errors and warnings with places, collected by a stage and reported together, as a compiler does.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace quell {
+
+// A place in a text: a graph file, a sequence file or an option such as `--set #2`.
+struct Position {
+  int source = -1;  // index into Sources; -1 is nowhere
+  std::size_t offset = 0;
+};
+
+// The texts that positions point into.
+class Sources {
+ public:
+  int add(std::string name, std::string text);
+  const std::string& name(int source) const { return sources_[std::size_t(source)].name; }
+  const std::string& text(int source) const { return sources_[std::size_t(source)].text; }
+  // "graphs/svgf.json:21:34"; the name alone for an option; "" for nowhere. Lines and columns count from 1; columns count
+  // UTF-8 code points.
+  std::string place(Position) const;
+
+ private:
+  struct Source {
+    std::string name, text;
+  };
+  std::vector<Source> sources_;
+};
+
+enum class Severity { error, warning };
+
+struct Diagnostic {
+  Severity severity;
+  Position position;
+  std::string path;                // where in the document: "nodes.level0.in.image"; may be empty
+  std::string text;                // what is wrong, with the offending value
+  std::vector<std::string> notes;  // what was possible: "it has: image, variance. Did you mean 'image'?"
+};
+
+class Diagnostics {
+ public:
+  void error(Position, std::string path, std::string text, std::vector<std::string> notes = {});
+  void warning(Position, std::string path, std::string text, std::vector<std::string> notes = {});
+  bool ok() const { return errors_ == 0; }
+  std::size_t errors() const { return errors_; }
+  const std::vector<Diagnostic>& list() const { return list_; }
+
+  Sources sources;
+
+  // One diagnostic: "place: error: path: text" and its notes, each on a line of its own indented by two.
+  std::string format(const Diagnostic&) const;
+  // All, in order of place within each source, without doubles.
+  std::string format() const;
+
+ private:
+  std::vector<Diagnostic> list_;
+  std::size_t errors_ = 0;
+};
+
+}  // namespace quell

@@ -1,0 +1,39 @@
+// What the executor reads frames from: files by a sequence, or a source node.
+#pragma once
+
+#include <quell/abi.h>
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace quell {
+
+// What the way in had to repair, per role.
+struct Repairs {
+  std::int64_t non_finite = 0;  // pixels with NaN or Inf, replaced
+  std::int64_t negative = 0;    // pixels with negative radiance, raised to 0
+};
+
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+
+  // Frame numbers in the order in which they run.
+  virtual const std::vector<std::int64_t>& frames() const = 0;
+  // History ends before this frame: a declared cut or a gap in the numbers. True for the first.
+  virtual bool cut_before(std::int64_t frame) const = 0;
+  // Roles that it provides, with their quell_type.
+  virtual const std::map<std::string, int>& roles() const = 0;
+  // Shape of each role in `roles`, in that order, for this frame; opens headers only. Throws Error(Exit::input).
+  virtual std::vector<quell_shape> shapes(std::int64_t frame, std::span<const std::string> roles) = 0;
+  // Fills one image per role, in the conventions of <quell/types.h>. May run on a thread of its own while another frame is
+  // filtered; one call at a time. Throws Error(Exit::input).
+  virtual void read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) = 0;
+  // Totals so far, by role.
+  virtual std::map<std::string, Repairs> repairs() const = 0;
+};
+
+}  // namespace quell
