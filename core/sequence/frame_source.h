@@ -25,6 +25,8 @@ class FrameSource {
   virtual const std::vector<std::int64_t>& frames() const = 0;
   // History ends before this frame: a declared cut or a gap in the numbers. True for the first.
   virtual bool cut_before(std::int64_t frame) const = 0;
+  // The sequence itself declares a cut before this frame (so that even a run that goes on from saved state starts anew).
+  virtual bool declared_cut(std::int64_t) const { return false; }
   // Roles that it provides, with their quell_type.
   virtual const std::map<std::string, int>& roles() const = 0;
   // Shape of each role in `roles`, in that order, for this frame; opens headers only. Throws Error(Exit::input).

@@ -160,7 +160,13 @@ std::vector<Image> Node::run() {
   const quell_spec spec{in_shapes.data(), counts.data()};
   if (table.prepare && table.prepare(instance_.data(), &spec, &resource, &error)) fail(error.text);
   const std::unique_ptr<void, void (*)(void*)> kept(resource, table.release ? table.release : [](void*) {});
-  const int height = out_shapes[0].height, width = out_shapes[0].width;
+  // Tiles cover the first output that is pixels; tables and values are written by the tile that holds (0, 0).
+  std::size_t tiled = 0;
+  while (tiled + 1 < out.size() && (!images[tiled].channels() || type_info(type_->outputs()[tiled].type) == nullptr ||
+                                    type_info(type_->outputs()[tiled].type)->storage != Storage::pixels) &&
+         type_->outputs()[tiled].type != QUELL_ANY)
+    ++tiled;
+  const int height = out_shapes[tiled].height, width = out_shapes[tiled].width;
   const int rows = rows_ ? rows_ : height, columns = columns_ ? columns_ : width;
   for (int y = 0; y < height; y += rows)
     for (int x = 0; x < width; x += columns) {

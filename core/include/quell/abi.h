@@ -131,7 +131,9 @@ typedef struct quell_input { /* one input port */
   int32_t count;                            /* 0: not connected; more than 1 only for lists */
 } quell_input;
 
-typedef struct quell_tile { /* what run is to do: fill columns [x0, x1) of rows [y0, y1) of every output */
+/* What run is to do: fill columns [x0, x1) of rows [y0, y1) of every output. Outputs that are tables or values, beside
+ * outputs that are pixels, are no part of the rectangle: the tile that holds (0, 0) writes them in whole. */
+typedef struct quell_tile {
   const quell_input* in;
   const quell_image* out; /* one an output port; plane is NULL for an output that does not exist (quell_port.with) */
   int32_t x0, y0, x1, y1;
