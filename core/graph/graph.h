@@ -1,5 +1,5 @@
-// A graph ready to be planned: subgraphs expanded, bypassed and unneeded nodes gone, every port and parameter checked, nodes
-// in an order in which each comes after all that it reads undelayed.
+// A graph ready to be planned: subgraphs expanded, bypassed and unneeded nodes gone, every port and parameter checked,
+// nodes in an order in which each comes after all that it reads undelayed.
 #pragma once
 
 #include "core/plugin/node_type.h"
@@ -62,7 +62,8 @@ struct Graph {
   }
 };
 
-// Everything that decides a graph's results, as text: nodes, plugin versions, parameters, wires. Equal texts, equal results.
+// Everything that decides a graph's results, as text: nodes, plugin versions, parameters, wires. Equal texts, equal
+// results.
 std::string fingerprint_text(const Graph&);
 // 64-bit FNV-1a of it, as 16 hexadecimal digits.
 std::string fingerprint(const Graph&);

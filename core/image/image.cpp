@@ -21,7 +21,8 @@ std::size_t plane_floats(int width, int height) {
 
 void lay_out(float* memory, const quell_shape& s, std::vector<float*>& planes) {
   planes.resize(std::size_t(s.channels));
-  for (std::size_t c = 0; c < planes.size(); ++c) planes[c] = memory + c * plane_floats(s.width, s.height) + QUELL_MARGIN;
+  for (std::size_t c = 0; c < planes.size(); ++c)
+    planes[c] = memory + c * plane_floats(s.width, s.height) + QUELL_MARGIN;
 }
 
 void Image::Free::operator()(float* p) const { std::free(p); }

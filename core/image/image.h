@@ -1,5 +1,5 @@
-// Owned planar images, laid out as the plugin boundary promises: rows aligned to 64 bytes, one pitch for each width, and a
-// readable margin around every plane.
+// Owned planar images, laid out as the plugin boundary promises: rows aligned to 64 bytes, one pitch for each width,
+// and a readable margin around every plane.
 #pragma once
 
 #include <quell/abi.h>
@@ -11,8 +11,8 @@
 
 namespace quell {
 
-// Floats from a row to the next, for images of this width: a multiple of 16 that is no multiple of 1024, so that rows do
-// not compete for the same cache sets.
+// Floats from a row to the next, for images of this width: a multiple of 16 that is no multiple of 1024, so that rows
+// do not compete for the same cache sets.
 std::ptrdiff_t pitch_for(int width);
 // Floats that one plane takes, margins included; a multiple of 16.
 std::size_t plane_floats(int width, int height);
@@ -36,16 +36,16 @@ class Image {
   float* row(int channel, int y) { return planes_[std::size_t(channel)] + y * pitch_; }
   const float* row(int channel, int y) const { return planes_[std::size_t(channel)] + y * pitch_; }
   std::uint32_t* bits(int channel, int y) { return reinterpret_cast<std::uint32_t*>(row(channel, y)); }
-  const std::uint32_t* bits(int channel, int y) const { return reinterpret_cast<const std::uint32_t*>(row(channel, y)); }
+  const std::uint32_t* bits(int channel, int y) const {
+    return reinterpret_cast<const std::uint32_t*>(row(channel, y));
+  }
   float& at(int channel, int x, int y) { return row(channel, y)[x]; }
   float at(int channel, int x, int y) const { return row(channel, y)[x]; }
   void fill(float value);
   Image copy() const;
   bool empty() const { return planes_.empty(); }
   // As it crosses the plugin boundary; valid while this image lives where it is.
-  quell_image view() const {
-    return {planes_.data(), shape_.width, shape_.height, shape_.channels, 0, pitch_};
-  }
+  quell_image view() const { return {planes_.data(), shape_.width, shape_.height, shape_.channels, 0, pitch_}; }
 
  private:
   struct Free {

@@ -28,8 +28,8 @@ struct Json {
   const Json* find(std::string_view key) const;  // of an object; nullptr when absent or no object
   bool is(Kind k) const { return kind == k; }
   bool is_number() const { return kind == Kind::integer || kind == Kind::number; }
-  std::string kind_name() const;   // "an object", "text", "a number"…
-  std::string shown() const;       // the value for a message, shortened: 12, "abc", [ … ], { … }
+  std::string kind_name() const;  // "an object", "text", "a number"…
+  std::string shown() const;      // the value for a message, shortened: 12, "abc", [ … ], { … }
 };
 
 struct JsonMember {
@@ -38,9 +38,9 @@ struct JsonMember {
   Json value;
 };
 
-// Parses one document whose text becomes a source called `name`. Syntax errors, duplicate keys (one message each), more than
-// 64 levels and numbers that are not finite are errors; nothing is returned then. Bounded: a text of 100 MB of brackets is an error,
-// not a crash. Takes comments and a byte order mark.
+// Parses one document whose text becomes a source called `name`. Syntax errors, duplicate keys (one message each), more
+// than 64 levels and numbers that are not finite are errors; nothing is returned then. Bounded: a text of 100 MB of
+// brackets is an error, not a crash. Takes comments and a byte order mark.
 std::optional<Json> parse_json(std::string name, std::string text, Diagnostics&);
 // The same from a file; a missing or unreadable file is an error.
 std::optional<Json> parse_json_file(const std::string& path, Diagnostics&);

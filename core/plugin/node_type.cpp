@@ -87,12 +87,24 @@ std::string Instance::describe() const {
     out += p.name;
     out += '=';
     switch (p.kind) {
-      case QUELL_BOOL: out += get_bool(n) ? "true" : "false"; break;
-      case QUELL_INT: out += fmt::format("{}", get_int(n)); break;
-      case QUELL_FLOAT: out += fmt::format("{}", get_float(n)); break;
-      case QUELL_CHOICE: out += p.choices[get_int(n)]; break;
-      case QUELL_FLOATS: out += fmt::format("[{}]", fmt::join(get_floats(n), ",")); break;
-      default: out += fmt::format("{:?}", std::string(get_text(n))); break;
+      case QUELL_BOOL:
+        out += get_bool(n) ? "true" : "false";
+        break;
+      case QUELL_INT:
+        out += fmt::format("{}", get_int(n));
+        break;
+      case QUELL_FLOAT:
+        out += fmt::format("{}", get_float(n));
+        break;
+      case QUELL_CHOICE:
+        out += p.choices[get_int(n)];
+        break;
+      case QUELL_FLOATS:
+        out += fmt::format("[{}]", fmt::join(get_floats(n), ","));
+        break;
+      default:
+        out += fmt::format("{:?}", std::string(get_text(n)));
+        break;
     }
   }
   return out;

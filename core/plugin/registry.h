@@ -50,7 +50,8 @@ class Registry {
   std::vector<PluginProblem> problems_;
 };
 
-// What is wrong with a table, a sentence each; empty when it may be registered. Reads nothing that the table does not vouch for.
+// What is wrong with a table, a sentence each; empty when it may be registered. Reads nothing that the table does not
+// vouch for.
 std::vector<std::string> validate(const quell_plugin_table*);
 
 }  // namespace quell

@@ -26,14 +26,19 @@ bool counted(const void* list, int count) { return count >= 0 && count <= kMaxEn
 
 std::size_t bytes_of(const quell_param& p) {
   switch (p.kind) {
-    case QUELL_BOOL: return 1;
+    case QUELL_BOOL:
+      return 1;
     case QUELL_INT:
     case QUELL_FLOAT:
-    case QUELL_CHOICE: return 4;
-    case QUELL_FLOATS: return p.count > 0 ? std::size_t(p.count) * 4 : 0;
+    case QUELL_CHOICE:
+      return 4;
+    case QUELL_FLOATS:
+      return p.count > 0 ? std::size_t(p.count) * 4 : 0;
     case QUELL_TEXT:
-    case QUELL_PATH: return sizeof(quell_text);
-    default: return 0;
+    case QUELL_PATH:
+      return sizeof(quell_text);
+    default:
+      return 0;
   }
 }
 
@@ -100,8 +105,10 @@ class Checker {
         bad("output {} passes input {} of {}", shown(p.name), p.passes, n.in_count);
       else if (p.passes >= 0 && n.in[p.passes].type != p.type)
         bad("output {} passes an input of another type", shown(p.name));
-      if (p.with < -1 || p.with >= n.in_count) bad("output {} is with input {} of {}", shown(p.name), p.with, n.in_count);
-      if ((p.type == QUELL_WEIGHT) != (n.weigh != nullptr)) bad("output {}: weight nodes, and only they, give weights", shown(p.name));
+      if (p.with < -1 || p.with >= n.in_count)
+        bad("output {} is with input {} of {}", shown(p.name), p.with, n.in_count);
+      if ((p.type == QUELL_WEIGHT) != (n.weigh != nullptr))
+        bad("output {}: weight nodes, and only they, give weights", shown(p.name));
     }
     if (n.weigh && n.out_count != 1) bad("a weight node has one output, not {}", n.out_count);
     if (n.weigh)
@@ -145,7 +152,8 @@ class Checker {
     for (int k = 0; k < p.choice_count; ++k)
       if (!p.choices[k] || !*p.choices[k]) bad("parameter '{}': choice {} has no name", p.name, k);
     const int chosen = read<std::int32_t>(at);
-    if (chosen < 0 || chosen >= p.choice_count) bad("parameter '{}': default {} is none of its {} choices", p.name, chosen, p.choice_count);
+    if (chosen < 0 || chosen >= p.choice_count)
+      bad("parameter '{}': default {} is none of its {} choices", p.name, chosen, p.choice_count);
   }
   void in_range(const quell_param& p, double value) {
     if (!(value >= p.min && value <= p.max))
@@ -167,10 +175,11 @@ class Checker {
 std::vector<std::string> validate(const quell_plugin_table* table) {
   std::vector<std::string> out;
   if (!table) return {"quell_plugin() returned null"};
-  if (table->magic != QUELL_MAGIC) return {fmt::format("the table's magic number is {:#010x}, expected {:#010x}", table->magic, QUELL_MAGIC)};
+  if (table->magic != QUELL_MAGIC)
+    return {fmt::format("the table's magic number is {:#010x}, expected {:#010x}", table->magic, QUELL_MAGIC)};
   if (table->abi_major != QUELL_ABI_MAJOR || table->abi_minor > QUELL_ABI_MINOR)
-    return {fmt::format("built for plugin ABI {}.{}, this program has {}.{}: rebuild the plugin", table->abi_major, table->abi_minor,
-                        QUELL_ABI_MAJOR, QUELL_ABI_MINOR)};
+    return {fmt::format("built for plugin ABI {}.{}, this program has {}.{}: rebuild the plugin", table->abi_major,
+                        table->abi_minor, QUELL_ABI_MAJOR, QUELL_ABI_MINOR)};
   if (table->size != sizeof(quell_plugin_table))
     return {fmt::format("the table's size is {}, expected {}", table->size, sizeof(quell_plugin_table))};
   if (!table->version || !table->compiler) return {"version or compiler is null"};

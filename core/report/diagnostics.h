@@ -20,8 +20,8 @@ class Sources {
   int add(std::string name, std::string text);
   const std::string& name(int source) const { return sources_[std::size_t(source)].name; }
   const std::string& text(int source) const { return sources_[std::size_t(source)].text; }
-  // "graphs/svgf.json:21:34"; the name alone for an option; "" for nowhere. Lines and columns count from 1; columns count
-  // UTF-8 code points.
+  // "graphs/svgf.json:21:34"; the name alone for an option; "" for nowhere. Lines and columns count from 1; columns
+  // count UTF-8 code points.
   std::string place(Position) const;
 
  private:

@@ -25,14 +25,15 @@ class FrameSource {
   virtual const std::vector<std::int64_t>& frames() const = 0;
   // History ends before this frame: a declared cut or a gap in the numbers. True for the first.
   virtual bool cut_before(std::int64_t frame) const = 0;
-  // The sequence itself declares a cut before this frame (so that even a run that goes on from saved state starts anew).
+  // The sequence itself declares a cut before this frame (so that even a run that goes on from saved state starts
+  // anew).
   virtual bool declared_cut(std::int64_t) const { return false; }
   // Roles that it provides, with their quell_type.
   virtual const std::map<std::string, int>& roles() const = 0;
   // Shape of each role in `roles`, in that order, for this frame; opens headers only. Throws Error(Exit::input).
   virtual std::vector<quell_shape> shapes(std::int64_t frame, std::span<const std::string> roles) = 0;
-  // Fills one image per role, in the conventions of <quell/types.h>. May run on a thread of its own while another frame is
-  // filtered; one call at a time. Throws Error(Exit::input).
+  // Fills one image per role, in the conventions of <quell/types.h>. May run on a thread of its own while another frame
+  // is filtered; one call at a time. Throws Error(Exit::input).
   virtual void read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) = 0;
   // Totals so far, by role.
   virtual std::map<std::string, Repairs> repairs() const = 0;

@@ -50,12 +50,18 @@ Node& Node::set(std::string_view param, ParamValue value) {
   if (i < 0) fail(std::string(type_->name()) + " has no parameter " + std::string(param));
   const auto& p = type_->params()[std::size_t(i)];
   switch (p.kind) {
-    case QUELL_BOOL: instance_.set_bool(i, std::get<bool>(value)); break;
-    case QUELL_INT: instance_.set_int(i, std::get<int>(value)); break;
+    case QUELL_BOOL:
+      instance_.set_bool(i, std::get<bool>(value));
+      break;
+    case QUELL_INT:
+      instance_.set_int(i, std::get<int>(value));
+      break;
     case QUELL_FLOAT:
       instance_.set_float(i, std::holds_alternative<int>(value) ? float(std::get<int>(value)) : std::get<float>(value));
       break;
-    case QUELL_FLOATS: instance_.set_floats(i, std::get<std::vector<float>>(value)); break;
+    case QUELL_FLOATS:
+      instance_.set_floats(i, std::get<std::vector<float>>(value));
+      break;
     case QUELL_CHOICE: {
       const auto& name = std::get<std::string>(value);
       int found = -1;
@@ -65,7 +71,9 @@ Node& Node::set(std::string_view param, ParamValue value) {
       instance_.set_int(i, found);
       break;
     }
-    default: instance_.set_text(i, std::get<std::string>(value)); break;
+    default:
+      instance_.set_text(i, std::get<std::string>(value));
+      break;
   }
   return *this;
 }
@@ -141,8 +149,9 @@ std::vector<Image> Node::run() {
     const bool weight = type_->inputs()[i].type == QUELL_WEIGHT;
     const auto count = int(weight ? bound[i].size() : images_[i].size());
     inputs.push_back({weight ? nullptr : images_[i].data(), weight ? bound[i].data() : nullptr, count});
-    in_shapes.push_back(images_[i].empty() ? quell_shape{}
-                                           : quell_shape{images_[i][0].width, images_[i][0].height, images_[i][0].channels});
+    in_shapes.push_back(images_[i].empty()
+                            ? quell_shape{}
+                            : quell_shape{images_[i][0].width, images_[i][0].height, images_[i][0].channels});
     counts.push_back(count);
   }
   const auto out_shapes = shapes();
@@ -159,18 +168,21 @@ std::vector<Image> Node::run() {
   void* resource = nullptr;
   const quell_spec spec{in_shapes.data(), counts.data()};
   if (table.prepare && table.prepare(instance_.data(), &spec, &resource, &error)) fail(error.text);
-  const std::unique_ptr<void, void (*)(void*)> kept(resource, table.release ? table.release : [](void*) {});
+  const std::unique_ptr<void, void (*)(void*)> kept(
+      resource, table.release ? table.release : [](void*) {});
   // Tiles cover the first output that is pixels; tables and values are written by the tile that holds (0, 0).
   std::size_t tiled = 0;
-  while (tiled + 1 < out.size() && (!images[tiled].channels() || type_info(type_->outputs()[tiled].type) == nullptr ||
-                                    type_info(type_->outputs()[tiled].type)->storage != Storage::pixels) &&
+  while (tiled + 1 < out.size() &&
+         (!images[tiled].channels() || type_info(type_->outputs()[tiled].type) == nullptr ||
+          type_info(type_->outputs()[tiled].type)->storage != Storage::pixels) &&
          type_->outputs()[tiled].type != QUELL_ANY)
     ++tiled;
   const int height = out_shapes[tiled].height, width = out_shapes[tiled].width;
   const int rows = rows_ ? rows_ : height, columns = columns_ ? columns_ : width;
   for (int y = 0; y < height; y += rows)
     for (int x = 0; x < width; x += columns) {
-      const quell_tile tile{inputs.data(), out.data(), x, y, std::min(x + columns, width), std::min(y + rows, height), frame_};
+      const quell_tile tile{inputs.data(), out.data(), x, y, std::min(x + columns, width), std::min(y + rows, height),
+                            frame_};
       if (table.run(instance_.data(), resource, &tile, &error)) fail(error.text);
     }
   return images;
@@ -201,7 +213,8 @@ Image normal_image(int width, int height, std::uint32_t seed, bool misses) {
   const float phase = float(seed % 97);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const float a = std::sin(float(x) * 0.11f + phase), b = std::cos(float(y) * 0.07f - phase), n = std::sqrt(a * a + b * b + 1);
+      const float a = std::sin(float(x) * 0.11f + phase), b = std::cos(float(y) * 0.07f - phase),
+                  n = std::sqrt(a * a + b * b + 1);
       const bool miss = misses && next(seed) < 0.05f;
       image.at(0, x, y) = miss ? 0 : a / n;
       image.at(1, x, y) = miss ? 0 : b / n;

@@ -24,9 +24,10 @@ class Node {
   explicit Node(std::string_view type);
 
   Node& set(std::string_view param, ParamValue);
-  Node& in(std::string_view port, const Image&);           // appends for a list port
-  Node& in_missing(std::string_view port, const Image&);   // a delayed wire without a past; the image is what it reads as
-  Node& in(std::string_view port, Node& weight);           // a weight node, for a port of type weight
+  Node& in(std::string_view port, const Image&);  // appends for a list port
+  Node& in_missing(std::string_view port,
+                   const Image&);                 // a delayed wire without a past; the image is what it reads as
+  Node& in(std::string_view port, Node& weight);  // a weight node, for a port of type weight
   Node& frame(std::int64_t number);
   // Rows per tile (0: one tile for the whole image) and columns per tile.
   Node& tiles(int rows, int columns = 0);

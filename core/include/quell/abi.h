@@ -5,7 +5,8 @@
  *
  * Rules that both sides keep:
  *  - Tables and all that they point to are constant and live as long as the process; a plugin is never unloaded.
- *  - A node is a pure function: run and weigh read the instance, the resource and their inputs, and write their outputs.
+ *  - A node is a pure function: run and weigh read the instance, the resource and their inputs, and write their
+ * outputs.
  *  - Callbacks are called from several threads at once, on different tiles. A plugin starts no thread of its own.
  *  - No exception crosses. A callback that can fail returns nonzero and fills quell_error.
  *  - Images hold finite numbers. Every pixel of an output's tile is written.
@@ -50,14 +51,14 @@ typedef enum quell_type {
   QUELL_ANY = 100    /* a type variable over float images: all `any` ports of one node have one type */
 } quell_type;
 
-typedef enum quell_kind { /* of a parameter, and how it lies in the instance */
-  QUELL_BOOL = 1,         /* uint8_t, 0 or 1 */
-  QUELL_INT = 2,          /* int32_t */
-  QUELL_FLOAT = 3,        /* float */
-  QUELL_CHOICE = 4,       /* int32_t, index into choices */
-  QUELL_FLOATS = 5,       /* float[count] */
-  QUELL_TEXT = 6,         /* quell_text */
-  QUELL_PATH = 7          /* quell_text: a file, absolute once the host has resolved it */
+typedef enum quell_kind {                   /* of a parameter, and how it lies in the instance */
+                          QUELL_BOOL = 1,   /* uint8_t, 0 or 1 */
+                          QUELL_INT = 2,    /* int32_t */
+                          QUELL_FLOAT = 3,  /* float */
+                          QUELL_CHOICE = 4, /* int32_t, index into choices */
+                          QUELL_FLOATS = 5, /* float[count] */
+                          QUELL_TEXT = 6,   /* quell_text */
+                          QUELL_PATH = 7    /* quell_text: a file, absolute once the host has resolved it */
 } quell_kind;
 
 typedef struct quell_text { /* UTF-8; the host owns the bytes, which end in a NUL and live as long as the instance */
@@ -71,15 +72,15 @@ typedef struct quell_error {
 
 /* ---- Description ------------------------------------------------------------------------------------------------ */
 
-enum { /* quell_port.flags */
-  QUELL_OPTIONAL = 1u, /* input: may be left unconnected */
-  QUELL_LIST = 2u      /* input: takes any number of wires */
+enum {                      /* quell_port.flags */
+       QUELL_OPTIONAL = 1u, /* input: may be left unconnected */
+       QUELL_LIST = 2u      /* input: takes any number of wires */
 };
 
 typedef struct quell_port {
   const char* name; /* [a-z][a-z0-9_]* */
   const char* doc;
-  int32_t type;  /* quell_type */
+  int32_t type; /* quell_type */
   uint32_t flags;
   int32_t passes; /* output: input that stands in for it when the node is bypassed, or -1 */
   int32_t with;   /* output: exists only when this input is connected, or -1 */
@@ -88,9 +89,9 @@ typedef struct quell_port {
 typedef struct quell_param {
   const char* name;
   const char* doc;
-  int32_t kind;  /* quell_kind */
-  int32_t count; /* QUELL_FLOATS: how many; else 1 */
-  size_t offset; /* in the instance */
+  int32_t kind;    /* quell_kind */
+  int32_t count;   /* QUELL_FLOATS: how many; else 1 */
+  size_t offset;   /* in the instance */
   double min, max; /* inclusive; of each number. -INFINITY and INFINITY where unbounded */
   const char* const* choices;
   int32_t choice_count;
@@ -111,9 +112,9 @@ typedef struct quell_shape {
 /* ---- Execution -------------------------------------------------------------------------------------------------- */
 
 /* Planar float32 (uint32 in the planes of `id` and the mask plane of `taps`). Pixel (x, y) of channel c is
- * plane[c][y * pitch + x]. Planes are aligned to 64 bytes and so is each row. All images of one width have one pitch, so
- * one offset serves all inputs of a node. Beyond either end of a row QUELL_MARGIN floats may be read (their values are of
- * no meaning), and a row of an output may be written up to a multiple of 16 floats. */
+ * plane[c][y * pitch + x]. Planes are aligned to 64 bytes and so is each row. All images of one width have one pitch,
+ * so one offset serves all inputs of a node. Beyond either end of a row QUELL_MARGIN floats may be read (their values
+ * are of no meaning), and a row of an output may be written up to a multiple of 16 floats. */
 #define QUELL_MARGIN 192
 
 typedef struct quell_image {
@@ -125,10 +126,10 @@ typedef struct quell_image {
 
 struct quell_bound_weight;
 
-typedef struct quell_input { /* one input port */
-  const quell_image* image;                 /* `count` images, or NULL for a port of type weight */
-  const struct quell_bound_weight* weight;  /* `count` functions, or NULL */
-  int32_t count;                            /* 0: not connected; more than 1 only for lists */
+typedef struct quell_input {               /* one input port */
+  const quell_image* image;                /* `count` images, or NULL for a port of type weight */
+  const struct quell_bound_weight* weight; /* `count` functions, or NULL */
+  int32_t count;                           /* 0: not connected; more than 1 only for lists */
 } quell_input;
 
 /* What run is to do: fill columns [x0, x1) of rows [y0, y1) of every output. Outputs that are tables or values, beside
@@ -152,33 +153,34 @@ typedef struct quell_tap {
 #define QUELL_SEGMENT 128
 
 typedef struct quell_run {
-  int32_t x, y, n;     /* pixels (x … x + n - 1, y), 1 <= n <= QUELL_SEGMENT */
-  int32_t taps;        /* 1 <= taps <= QUELL_MAX_TAPS */
+  int32_t x, y, n; /* pixels (x … x + n - 1, y), 1 <= n <= QUELL_SEGMENT */
+  int32_t taps;    /* 1 <= taps <= QUELL_MAX_TAPS */
   const quell_tap* tap;
-  ptrdiff_t at;        /* y * pitch + x: where the run starts in every plane */
-  ptrdiff_t row;       /* floats from exponent[t] to exponent[t + 1] */
+  ptrdiff_t at;  /* y * pitch + x: where the run starts in every plane */
+  ptrdiff_t row; /* floats from exponent[t] to exponent[t + 1] */
   int32_t paired;
-  int32_t store;       /* 1: store the exponents; 0: add to what is there */
+  int32_t store; /* 1: store the exponents; 0: add to what is there */
 } quell_run;
 
 /* A weight node, bound to its inputs. Fills exponent[t * row + i] for tap t and pixel i: log2 units, >= 0, +inf for
  * "never"; the weight of the tap is 2 to the minus the sum of all weight nodes' exponents. May compute and write up to
  * n rounded up to a multiple of 32. */
 typedef struct quell_bound_weight {
-  void (*weigh)(const void* instance, const void* resource, const quell_input* in, const quell_run* run, float* exponent);
+  void (*weigh)(const void* instance, const void* resource, const quell_input* in, const quell_run* run,
+                float* exponent);
   const void* instance;
   const void* resource;
   const quell_input* in; /* inputs of the weight node, ready to read as far as the filter's reach plus their own */
 } quell_bound_weight;
 
 typedef struct quell_spec { /* what is known when a graph has been planned */
-  const quell_shape* in; /* one an input port: shape of its first image; zero where not connected or a weight */
+  const quell_shape* in;    /* one an input port: shape of its first image; zero where not connected or a weight */
   const int32_t* in_count;
 } quell_spec;
 
 typedef struct quell_node {
-  uint32_t size; /* sizeof(quell_node) */
-  const char* name; /* [a-z][a-z0-9_]*; the library is called after its node: <name>.so */
+  uint32_t size;       /* sizeof(quell_node) */
+  const char* name;    /* [a-z][a-z0-9_]*; the library is called after its node: <name>.so */
   const char* summary; /* one sentence */
   const char* source;  /* paper and equation, or "" */
   const quell_port* in;
@@ -187,7 +189,8 @@ typedef struct quell_node {
   int32_t out_count;
   const quell_param* param;
   int32_t param_count;
-  /* An instance: the host copies `defaults` to memory of this size and alignment, and writes parameters at their offsets. */
+  /* An instance: the host copies `defaults` to memory of this size and alignment, and writes parameters at their
+   * offsets. */
   size_t instance_size, instance_align;
   const void* defaults;
   /* How far each input is read, a function of the parameters; reach[in_count] comes zeroed. NULL: at the pixel. */

@@ -1,5 +1,5 @@
-// How a node's struct becomes its table: `describe` runs once on a prototype to write ports, parameters and docs, and once
-// on each configured instance to read its reaches.
+// How a node's struct becomes its table: `describe` runs once on a prototype to write ports, parameters and docs, and
+// once on each configured instance to read its reaches.
 #pragma once
 
 #include <quell/tile.h>
@@ -97,8 +97,7 @@ class Describe {
     return OutPort(table_ ? &outputs_.emplace_back(quell_port{name, doc, T::type, 0, -1, -1}) : nullptr);
   }
   template <class T>
-    requires(!std::is_enum_v<T>)
-  Param param(T& field, const char* name, const char* doc) {
+  requires(!std::is_enum_v<T>) Param param(T& field, const char* name, const char* doc) {
     if (!table_) return Param(nullptr);
     constexpr double inf = std::numeric_limits<double>::infinity();
     auto& p = params_.emplace_back(quell_param{name, doc, 0, 1, offset(&field), -inf, inf, nullptr, 0, 0});
@@ -121,12 +120,12 @@ class Describe {
   }
   // An enum class of int32_t whose values count from 0, with a name each.
   template <class E>
-    requires(std::is_enum_v<E> && sizeof(E) == 4)
-  Param param(E& field, const char* name, const char* doc, std::initializer_list<const char*> names) {
+  requires(std::is_enum_v<E> && sizeof(E) == 4) Param
+      param(E& field, const char* name, const char* doc, std::initializer_list<const char*> names) {
     if (!table_) return Param(nullptr);
     auto& kept = choices_.emplace_back(names);
-    return Param(&params_.emplace_back(quell_param{name, doc, QUELL_CHOICE, 1, offset(&field), 0, double(kept.size()) - 1,
-                                                  kept.data(), int(kept.size()), 0}));
+    return Param(&params_.emplace_back(quell_param{name, doc, QUELL_CHOICE, 1, offset(&field), 0,
+                                                   double(kept.size()) - 1, kept.data(), int(kept.size()), 0}));
   }
 
   // What was described; read by NodeTable.

@@ -3,7 +3,8 @@
 //   void run(const quell::Tile&[, const R&]) const         fills the tile of every output            (a filter)
 //   void weigh(const quell_input*, const quell_run&, float* exponent[, const R&]) const             (a weight node)
 //   R prepare(const quell_spec&) const                     optional: an immutable resource for run or weigh
-//   void shapes(const quell_spec&, quell_shape*) const     optional: sizes of the outputs; required without image inputs
+//   void shapes(const quell_spec&, quell_shape*) const     optional: sizes of the outputs; required without image
+//   inputs
 // and one line QUELL_PLUGIN("name", Struct). Defaults are the member initialisers. Exceptions become the node's error.
 #pragma once
 
@@ -22,11 +23,17 @@
 namespace quell {
 
 template <class T>
-concept Prepares = requires(const T& node, const quell_spec& spec) { node.prepare(spec); };
+concept Prepares = requires(const T& node, const quell_spec& spec) {
+  node.prepare(spec);
+};
 template <class T>
-concept Shapes = requires(const T& node, const quell_spec& spec, quell_shape* out) { node.shapes(spec, out); };
+concept Shapes = requires(const T& node, const quell_spec& spec, quell_shape* out) {
+  node.shapes(spec, out);
+};
 template <class T>
-concept Weighs = requires { &T::weigh; };
+concept Weighs = requires {
+  &T::weigh;
+};
 
 template <class F>
 std::int32_t guarded(quell_error* error, F&& call) noexcept {
@@ -45,7 +52,8 @@ std::int32_t guarded(quell_error* error, F&& call) noexcept {
 
 template <class T>
 class NodeTable {
-  static_assert(std::is_trivially_copyable_v<T>, "a node holds ports and parameters only: no std::string, no std::vector");
+  static_assert(std::is_trivially_copyable_v<T>,
+                "a node holds ports and parameters only: no std::string, no std::vector");
 
  public:
   explicit NodeTable(const char* name) : described_(&prototype_, true) {
@@ -137,11 +145,12 @@ class NodeTable {
 #define QUELL_EXPORT extern "C"
 #endif
 
-#define QUELL_PLUGIN(NAME, STRUCT)                                                                                      \
-  QUELL_EXPORT const quell_plugin_table* QUELL_PLUGIN_SYMBOL(void) {                                                    \
-    static const quell::NodeTable<STRUCT> table(NAME);                                                                  \
-    static const quell_node* const nodes[] = {table.node()};                                                            \
-    static const quell_plugin_table plugin = {QUELL_MAGIC, QUELL_ABI_MAJOR, QUELL_ABI_MINOR,     sizeof(quell_plugin_table), \
-                                              1,           nodes,           QUELL_PLUGIN_VERSION, __VERSION__};         \
-    return &plugin;                                                                                                     \
+#define QUELL_PLUGIN(NAME, STRUCT)                                                      \
+  QUELL_EXPORT const quell_plugin_table* QUELL_PLUGIN_SYMBOL(void) {                    \
+    static const quell::NodeTable<STRUCT> table(NAME);                                  \
+    static const quell_node* const nodes[] = {table.node()};                            \
+    static const quell_plugin_table plugin = {                                          \
+        QUELL_MAGIC, QUELL_ABI_MAJOR, QUELL_ABI_MINOR,      sizeof(quell_plugin_table), \
+        1,           nodes,           QUELL_PLUGIN_VERSION, __VERSION__};               \
+    return &plugin;                                                                     \
   }

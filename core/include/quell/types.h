@@ -18,10 +18,10 @@ enum class Storage : std::uint8_t { pixels, table, value, none };
 struct TypeInfo {
   quell_type type;
   std::string_view name;
-  int channels;           // 0: any number; of a table: one plane, a row of 16 numbers per matrix
+  int channels;  // 0: any number; of a table: one plane, a row of 16 numbers per matrix
   Storage storage;
-  float missing;          // what every number reads as when history is missing (of a table: the identity)
-  bool integer;           // uint32 in place of float32
+  float missing;  // what every number reads as when history is missing (of a table: the identity)
+  bool integer;   // uint32 in place of float32
   std::string_view doc;
 };
 
@@ -37,19 +37,22 @@ inline constexpr TypeInfo kTypes[] = {
     {QUELL_POSITION, "position", 3, Storage::pixels, 0, false, "World space; 0 where nothing was hit."},
     {QUELL_MOTION, "motion", 2, Storage::pixels, 0, false,
      "Pixels, previous - current, x right, y down, unjittered: previous = current + motion."},
-    {QUELL_ID, "id", 1, Storage::pixels, 0, true, "Object number, uint32; 0xFFFFFFFF where nothing was hit. Never interpolated."},
+    {QUELL_ID, "id", 1, Storage::pixels, 0, true,
+     "Object number, uint32; 0xFFFFFFFF where nothing was hit. Never interpolated."},
     {QUELL_VARIANCE, "variance", 1, Storage::pixels, 0, false, "Variance of the pixel's luminance estimate."},
     {QUELL_MOMENTS, "moments", 2, Storage::pixels, 0, false, "First and second raw moment of luminance."},
     {QUELL_COUNT, "count", 1, Storage::pixels, 0, false, "Frames accumulated; 0 = none."},
     {QUELL_TAPS, "taps", 5, Storage::pixels, 0, false,
-     "A reprojection's validated bilinear weights NW NE SW SE (all 0 = disoccluded) and a uint32 mask: bits 0-8 the valid "
+     "A reprojection's validated bilinear weights NW NE SW SE (all 0 = disoccluded) and a uint32 mask: bits 0-8 the "
+     "valid "
      "pixels of the surrounding 3x3, bit 9 the whole 4x4 footprint is valid."},
     {QUELL_SCALAR, "scalar", 1, Storage::pixels, 0, false, "Any other single channel."},
     {QUELL_FEATURES, "features", 0, Storage::pixels, 0, false, "Any number of channels."},
     {QUELL_DISPLAY, "display", 3, Storage::pixels, 0, false, "Display-encoded RGB in [0,1]: what a PNG holds."},
     {QUELL_VALUE, "value", 1, Storage::value, 0, false, "One number a frame."},
     {QUELL_CAMERA, "camera", 1, Storage::table, 0, false,
-     "Two 4x4 matrices, row-major, for column vectors: world to view (x right, y up, z forward), and world to screen in "
+     "Two 4x4 matrices, row-major, for column vectors: world to view (x right, y up, z forward), and world to screen "
+     "in "
      "pixels (y down, centres at +0.5, to be divided by w)."},
     {QUELL_TRANSFORMS, "transforms", 1, Storage::table, 0, false,
      "One 4x4 matrix an object id, row-major, for column vectors: object to world."},
