@@ -20,13 +20,14 @@ class Sources {
   int add(std::string name, std::string text);
   const std::string& name(int source) const { return sources_[std::size_t(source)].name; }
   const std::string& text(int source) const { return sources_[std::size_t(source)].text; }
-  // "graphs/svgf.json:21:34"; the name alone for an option; "" for nowhere. Lines and columns count from 1; columns
-  // count UTF-8 code points.
+  // "graphs/svgf.json:21:34"; the name alone for an option, which starts with "--"; "" for nowhere. Lines and columns
+  // count from 1; columns count UTF-8 code points.
   std::string place(Position) const;
 
  private:
   struct Source {
     std::string name, text;
+    std::vector<std::size_t> lines;  // where each starts
   };
   std::vector<Source> sources_;
 };
