@@ -1,7 +1,8 @@
 # quell_add_plugin(name source…): builds the plugin library of node type `name`.
 #
 # In this tree and out of it. With QUELL_STATIC_PLUGINS the same sources become an object library whose table function is
-# called quell_plugin_<name>, to be linked into one binary. Sources called *_kernels.cpp may contract a*b+c.
+# called quell_plugin_<name>, to be linked into one binary. Sources called *_kernels.cpp may contract a*b+c, and are what
+# <quell/simd.h> compiles once per SIMD target: Highway includes them again by name.
 function(quell_add_plugin name)
   if(QUELL_STATIC_PLUGINS)
     add_library(${name} OBJECT ${ARGN})
@@ -19,7 +20,13 @@ function(quell_add_plugin name)
   endif()
   target_link_libraries(${name} PRIVATE Quell::sdk)
   foreach(source ${ARGN})
-    if(NOT source MATCHES "_kernels\\.cpp$")
+    if(source MATCHES "_kernels\\.cpp$")
+      get_filename_component(file ${source} NAME)
+      get_filename_component(path ${source} ABSOLUTE)
+      get_filename_component(folder ${path} DIRECTORY)
+      set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS "HWY_TARGET_INCLUDE=\"${file}\"")
+      target_include_directories(${name} PRIVATE ${folder})
+    else()
       set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -ffp-contract=off)
     endif()
   endforeach()
