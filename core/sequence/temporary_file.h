@@ -1,0 +1,33 @@
+// Files that exist under a name of their own until they are whole.
+#pragma once
+
+#include <string>
+
+namespace quell {
+
+// Created beside `path`, and removed again unless committed: by the destructor, or by remove_temporaries() when the
+// program ends in another way. Makes the folders above `path`. Throws Error(Exit::resources) with the path and the
+// reason.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(std::string path);
+  ~TemporaryFile();
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  void write(const void* data, std::size_t size);
+  // Gives the file its name, in place of one that may be there.
+  void commit();
+
+ private:
+  [[noreturn]] void fail(const char* doing) const;
+
+  std::string path_, temporary_;
+  int file_ = -1;
+  int slot_ = -1;
+};
+
+// Removes what TemporaryFiles have not committed. May be called from a signal handler.
+void remove_temporaries();
+
+}  // namespace quell
