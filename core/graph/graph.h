@@ -33,7 +33,7 @@ struct GraphNode {
   Instance instance;
   std::vector<std::vector<Wire>> in;  // one an input port; empty: not connected
   std::vector<int> out_types;         // quell_type of each output, type variables bound
-  Position position;
+  TextPosition position;
   const NodeType& type() const { return instance.type(); }
 };
 

@@ -74,7 +74,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   bool end_array() override { return close(); }
 
   bool key(std::string& name) override {
-    const Position position{source_, string_start()};
+    const TextPosition position{source_, string_start()};
     auto& scope = open_.back();
     last_end_ = consumed;
     opened_ = false;
@@ -137,7 +137,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
   bool open(Json::Kind kind) {
-    const Position position{source_, consumed - 1};
+    const TextPosition position{source_, consumed - 1};
     if (open_.size() == kMaxDepth) {
       diagnostics_.error(position, "", fmt::format("nested deeper than {} levels", kMaxDepth));
       return false;

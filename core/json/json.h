@@ -17,7 +17,7 @@ struct Json {
   enum class Kind { null, boolean, integer, number, text, list, object };
 
   Kind kind = Kind::null;
-  Position position;
+  TextPosition position;
   bool boolean = false;
   std::int64_t integer = 0;  // valid for integer
   double number = 0;         // valid for integer and number
@@ -34,7 +34,7 @@ struct Json {
 
 struct JsonMember {
   std::string key;
-  Position key_position;
+  TextPosition key_position;
   Json value;
 };
 

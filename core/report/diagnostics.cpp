@@ -16,7 +16,7 @@ int Sources::add(std::string name, std::string text) {
   return int(sources_.size()) - 1;
 }
 
-std::string Sources::place(Position position) const {
+std::string Sources::place(TextPosition position) const {
   if (position.source < 0) return "";
   const auto& source = sources_[std::size_t(position.source)];
   if (source.name.starts_with("--")) return source.name;
@@ -30,12 +30,12 @@ std::string Sources::place(Position position) const {
   return fmt::format("{}:{}:{}", source.name, next - source.lines.begin(), column - (mark ? 1 : 0));
 }
 
-void Diagnostics::error(Position position, std::string path, std::string text, std::vector<std::string> notes) {
+void Diagnostics::error(TextPosition position, std::string path, std::string text, std::vector<std::string> notes) {
   list_.push_back({Severity::error, position, std::move(path), std::move(text), std::move(notes)});
   ++errors_;
 }
 
-void Diagnostics::warning(Position position, std::string path, std::string text, std::vector<std::string> notes) {
+void Diagnostics::warning(TextPosition position, std::string path, std::string text, std::vector<std::string> notes) {
   list_.push_back({Severity::warning, position, std::move(path), std::move(text), std::move(notes)});
 }
 

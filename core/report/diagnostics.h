@@ -9,7 +9,7 @@
 namespace quell {
 
 // A place in a text: a graph file, a sequence file or an option such as `--set #2`.
-struct Position {
+struct TextPosition {
   int source = -1;  // index into Sources; -1 is nowhere
   std::size_t offset = 0;
 };
@@ -22,7 +22,7 @@ class Sources {
   const std::string& text(int source) const { return sources_[std::size_t(source)].text; }
   // "graphs/svgf.json:21:34"; the name alone for an option, which starts with "--"; "" for nowhere. Lines and columns
   // count from 1; columns count UTF-8 code points.
-  std::string place(Position) const;
+  std::string place(TextPosition) const;
 
  private:
   struct Source {
@@ -36,7 +36,7 @@ enum class Severity { error, warning };
 
 struct Diagnostic {
   Severity severity;
-  Position position;
+  TextPosition position;
   std::string path;                // where in the document: "nodes.level0.in.image"; may be empty
   std::string text;                // what is wrong, with the offending value
   std::vector<std::string> notes;  // what was possible: "it has: image, variance. Did you mean 'image'?"
@@ -44,8 +44,8 @@ struct Diagnostic {
 
 class Diagnostics {
  public:
-  void error(Position, std::string path, std::string text, std::vector<std::string> notes = {});
-  void warning(Position, std::string path, std::string text, std::vector<std::string> notes = {});
+  void error(TextPosition, std::string path, std::string text, std::vector<std::string> notes = {});
+  void warning(TextPosition, std::string path, std::string text, std::vector<std::string> notes = {});
   bool ok() const { return errors_ == 0; }
   std::size_t errors() const { return errors_; }
   const std::vector<Diagnostic>& list() const { return list_; }

@@ -48,7 +48,7 @@ TEST(Json, KnowsWhereEverythingStands) {
       "// c \"\n{\"a\": 12 , /* \" */ \"b\\\\\": [1.50,\"x\\\"\\u0041\", -3e2,true,null], \"c\":{\"\":7}}";
   const auto p = parse(text);
   ASSERT_TRUE(p.json) << p.errors;
-  const auto at = [&](const Position& position, std::string_view token) {
+  const auto at = [&](const TextPosition& position, std::string_view token) {
     EXPECT_EQ(std::string_view(text).substr(position.offset, token.size()), token);
   };
   const Json& j = *p.json;
