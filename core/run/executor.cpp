@@ -1,0 +1,172 @@
+// Frames through a graph: read ahead, filter, write behind.
+#include "core/run/executor.h"
+
+#include "core/report/error.h"
+#include "core/run/session.h"
+#include "core/run/state.h"
+
+#include <fmt/format.h>
+
+#include <time.h>
+
+#include <chrono>
+#include <future>
+#include <memory>
+#include <optional>
+
+namespace quell {
+
+namespace {
+
+double now(clockid_t clock) {
+  timespec t;
+  clock_gettime(clock, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+// Adds wall and CPU time of its life to two sums. The CPU time is the thread's.
+class Stopwatch {
+ public:
+  Stopwatch(double& wall, double& cpu)
+      : wall_(wall), cpu_(cpu), wall0_(now(CLOCK_MONOTONIC)), cpu0_(now(CLOCK_THREAD_CPUTIME_ID)) {}
+  ~Stopwatch() {
+    wall_ += now(CLOCK_MONOTONIC) - wall0_;
+    cpu_ += now(CLOCK_THREAD_CPUTIME_ID) - cpu0_;
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double &wall_, &cpu_;
+  double wall0_, cpu0_;
+};
+
+// A job on a thread of its own, at most one at a time. Waits when destroyed; an error comes out of wait().
+class Background {
+ public:
+  ~Background() {
+    if (job_.valid()) job_.wait();
+  }
+  template <class F>
+  void start(F&& f) {
+    wait();
+    job_ = std::async(std::launch::async, std::forward<F>(f));
+  }
+  void wait() {
+    if (job_.valid()) job_.get();
+  }
+
+ private:
+  std::future<void> job_;
+};
+
+bool equal(const std::vector<quell_shape>& a, const std::vector<quell_shape>& b) {
+  return std::ranges::equal(a, b, [](const auto& x, const auto& y) {
+    return x.width == y.width && x.height == y.height && x.channels == y.channels;
+  });
+}
+
+class Run {
+ public:
+  Run(const Graph& graph, FrameSource& source, FrameSink& sink, const RunOptions& options)
+      : graph_(graph), source_(source), sink_(sink), options_(options), workers_(options.threads, options.cancel) {
+    for (const auto& input : graph.inputs) roles_.push_back(input.name);
+    for (const auto& node : graph.nodes) report_.nodes.push_back({node.name, std::string(node.type().name()), 0});
+    report_.threads = workers_.threads();
+  }
+
+  RunReport run() {
+    const double begin = now(CLOCK_MONOTONIC), cpu = now(CLOCK_PROCESS_CPUTIME_ID);
+    const auto& frames = source_.frames();
+    if (frames.empty()) throw Error(Exit::input, "the sequence has no frames");
+    enter(source_.shapes(frames[0], roles_));
+    if (!options_.load_state.empty()) resume(frames[0]);
+    read_ahead(frames[0], 0);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      reader_.wait();
+      const bool new_size = pending_shapes_.has_value();
+      if (new_size) {
+        // The frame has another size: a new plan, and the frame is read into it.
+        writer_.wait();
+        enter(*std::exchange(pending_shapes_, std::nullopt));
+        read_ahead(frames[i], 0);
+        reader_.wait();
+      } else if (i > 0 && source_.cut_before(frames[i])) {
+        writer_.wait();
+        session_->forget();
+      }
+      if (session_->age() == 0) ++report_.resets;
+      if (i + 1 < frames.size()) read_ahead(frames[i + 1], 1);
+      filter(frames[i]);
+      writer_.start([this, frame = frames[i], outputs = session_->outputs()] {
+        const Stopwatch watch(report_.write_wall, report_.write_cpu);
+        sink_.write(frame, outputs);
+      });
+      session_->advance();
+      ++report_.frames;
+      if (options_.progress) options_.progress({frames[i], i + 1, frames.size()});
+    }
+    writer_.wait();
+    if (!options_.save_state.empty()) save_state(options_.save_state, graph_, *session_, frames.back());
+    report_.wall = now(CLOCK_MONOTONIC) - begin;
+    // Of the process, less what reading and writing took.
+    report_.filter_cpu = now(CLOCK_PROCESS_CPUTIME_ID) - cpu - report_.read_cpu - report_.write_cpu;
+    return std::move(report_);
+  }
+
+ private:
+  void enter(std::vector<quell_shape> shapes) {
+    session_.reset();  // first, so that two plans never live at once
+    session_ = std::make_unique<Session>(graph_, std::move(shapes), workers_, options_);
+    report_.plan_bytes = std::max(report_.plan_bytes, session_->plan().bytes());
+  }
+
+  void resume(std::int64_t first) {
+    const auto saved = load_state(options_.load_state, graph_, *session_);
+    const auto& frames = source_.frames();
+    const std::int64_t stride = frames.size() > 1 ? frames[1] - frames[0] : 1;
+    if (first != saved + 1 && first != saved + stride)
+      throw Error(
+          Exit::input,
+          fmt::format("{}: cannot load state: it was saved after frame {}, so a run must go on with frame {}, not {}",
+                      options_.load_state.string(), saved, saved + 1, first));
+    if (source_.declared_cut(first)) session_->forget();
+  }
+
+  // Reads a frame `ahead` of the current one, unless its size differs: then only its shapes are kept.
+  void read_ahead(std::int64_t frame, int ahead) {
+    reader_.start([this, frame, images = session_->inputs(ahead)] {
+      const Stopwatch watch(report_.read_wall, report_.read_cpu);
+      auto shapes = source_.shapes(frame, roles_);
+      if (!equal(shapes, session_->input_shapes()))
+        pending_shapes_ = std::move(shapes);
+      else
+        source_.read(frame, roles_, images);
+    });
+  }
+
+  void filter(std::int64_t frame) {
+    double unused = 0;
+    const Stopwatch watch(report_.filter_wall, unused);
+    session_->filter(frame, report_.nodes);
+  }
+
+  const Graph& graph_;
+  FrameSource& source_;
+  FrameSink& sink_;
+  const RunOptions& options_;
+  Workers workers_;
+  std::vector<std::string> roles_;
+  RunReport report_;
+  std::unique_ptr<Session> session_;
+  std::optional<std::vector<quell_shape>> pending_shapes_;
+  Background reader_, writer_;  // last: they wait for their jobs before anything that these use goes
+};
+
+}  // namespace
+
+RunReport run_graph(const Graph& graph, FrameSource& source, FrameSink& sink, const RunOptions& options) {
+  return Run(graph, source, sink, options).run();
+}
+
+}  // namespace quell

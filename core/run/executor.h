@@ -1,0 +1,59 @@
+// Runs a graph over the frames of a source into a sink: reading the next frame and writing the last overlap with
+// filtering.
+#pragma once
+
+#include "core/graph/graph.h"
+#include "core/sequence/frame_source.h"
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace quell {
+
+// Takes the graph's outputs, in the order of Graph::outputs.
+class FrameSink {
+ public:
+  virtual ~FrameSink() = default;
+  // May run on a thread of its own while the next frame is filtered; one call at a time, in the order of the frames.
+  virtual void write(std::int64_t frame, std::span<const quell_image> outputs) = 0;
+};
+
+struct Progress {
+  std::int64_t frame;       // just filtered
+  std::size_t done, total;  // frames
+};
+
+struct RunOptions {
+  int threads = 0;                               // 0: every core that the process may use
+  int band_rows = 0;                             // 0: chosen per node
+  std::size_t max_memory = 0;                    // bytes for images; 0: no limit
+  std::filesystem::path load_state, save_state;  // empty: none
+  const std::atomic<bool>* cancel = nullptr;
+  std::function<void(const Progress&)> progress;
+};
+
+struct NodeTime {
+  std::string name, type;
+  double wall = 0;  // seconds, all frames
+};
+
+struct RunReport {
+  std::size_t frames = 0;
+  int threads = 0;
+  double wall = 0;                                        // seconds, all
+  double read_wall = 0, filter_wall = 0, write_wall = 0;  // each on its own clock; they overlap
+  double read_cpu = 0, filter_cpu = 0, write_cpu = 0;
+  std::size_t plan_bytes = 0;   // images of the largest plan
+  std::size_t resets = 0;       // frames that began without history
+  std::vector<NodeTime> nodes;  // in order
+};
+
+// Throws Error. What was written before an error stays; a frame is never half written.
+RunReport run_graph(const Graph&, FrameSource&, FrameSink&, const RunOptions&);
+
+}  // namespace quell

@@ -1,0 +1,264 @@
+// Shapes, lifetimes and memory of a graph's values.
+#include "core/run/plan.h"
+
+#include "core/image/image.h"
+#include "core/report/error.h"
+#include "core/run/intervals.h"
+
+#include <quell/types.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace quell {
+
+namespace {
+
+std::string shown(const quell_shape& s) { return fmt::format("{}x{}", s.width, s.height); }
+
+bool is_pixels(int type) {
+  const auto* info = type_info(type);
+  return info && info->storage == Storage::pixels;
+}
+
+quell_spec spec_of(const PlannedNode& n) { return {n.in.data(), n.in_count.data()}; }
+
+// Calls `f(wire, weight)` for each wire that the node at `index` reads when it runs: its own, and those of its weight
+// nodes.
+template <class F>
+void for_each_read(const Graph& graph, std::size_t index, F&& f) {
+  for (const auto& port : graph.nodes[index].in)
+    for (const auto& wire : port) {
+      const bool weight = wire.from.node >= 0 && graph.nodes[std::size_t(wire.from.node)].type().is_weight();
+      if (!weight) {
+        f(wire);
+        continue;
+      }
+      for (const auto& inner : graph.nodes[std::size_t(wire.from.node)].in)
+        for (const auto& w : inner) f(w);
+    }
+}
+
+}  // namespace
+
+Plan::Plan(const Graph& graph, std::span<const quell_shape> inputs) : graph_(&graph) {
+  list_values(inputs);
+  // Twice, for a delayed wire may come from a node later in the order: the first pass guesses its shape, the second
+  // knows it.
+  shapes(false);
+  shapes(true);
+  lifetimes();
+  memory();
+}
+
+void Plan::list_values(std::span<const quell_shape> inputs) {
+  const auto& g = *graph_;
+  for (std::size_t i = 0; i < g.inputs.size(); ++i) {
+    PlannedValue v;
+    v.name = g.inputs[i].name, v.type = g.inputs[i].type, v.shape = inputs[i], v.exists = true;
+    values_.push_back(std::move(v));
+  }
+  for (const auto& node : g.nodes) {
+    first_value_.push_back(values_.size());
+    for (std::size_t o = 0; o < node.type().outputs().size(); ++o) {
+      PlannedValue v;
+      v.name = node.name + "." + node.type().outputs()[o].name;
+      v.type = node.out_types[o];
+      values_.push_back(std::move(v));
+    }
+  }
+}
+
+void Plan::shapes(bool settled) {
+  const auto& g = *graph_;
+  nodes_.assign(g.nodes.size(), {});
+  for (std::size_t n = 0; n < g.nodes.size(); ++n) {
+    const auto& node = g.nodes[n];
+    const auto ports = node.type().inputs();
+    auto& planned = nodes_[n];
+    planned.in.resize(ports.size());
+    planned.in_count.resize(ports.size());
+    planned.reach = node.instance.reach();
+    quell_shape first{};
+    std::string first_name;
+    int any_channels = 0, feature_channels = 0;
+    for (const bool delayed : {false, true})
+      for (std::size_t p = 0; p < ports.size(); ++p) {
+        if (ports[p].type == QUELL_WEIGHT) {
+          planned.in_count[p] = int(node.in[p].size());
+          continue;
+        }
+        for (const auto& wire : node.in[p]) {
+          if ((wire.delay > 0) != delayed) continue;
+          const auto& value = values_[value_of(wire.from)];
+          quell_shape s = value.shape;
+          if (delayed && s.width == 0) s = {first.width, first.height, 0};
+          if (const auto* info = type_info(value.type); info && info->channels && s.channels == 0)
+            s.channels = info->channels;
+          if (planned.in_count[p]++ == 0) planned.in[p] = s;
+          if (!is_pixels(value.type)) continue;
+          if (first.width == 0) first = s, first_name = ports[p].name;
+          if (value.type != QUELL_FEATURES && (s.width != first.width || s.height != first.height))
+            throw Error(Exit::usage,
+                        fmt::format("{}: input '{}' is {}, but '{}' is {}: the images of a node have one size",
+                                    node.name, ports[p].name, shown(s), first_name, shown(first)));
+          if (ports[p].type == QUELL_ANY && any_channels == 0) any_channels = s.channels;
+          if (ports[p].type == QUELL_FEATURES && feature_channels == 0) feature_channels = s.channels;
+        }
+      }
+    std::vector<quell_shape> out;
+    for (std::size_t o = 0; o < node.type().outputs().size(); ++o) {
+      const auto& port = node.type().outputs()[o];
+      const auto* info = type_info(node.out_types[o]);
+      quell_shape s = first;
+      s.channels = info && info->channels ? info->channels : port.type == QUELL_ANY ? any_channels : feature_channels;
+      if (info && info->storage == Storage::value) s = {1, 1, 1};
+      out.push_back(s);
+    }
+    const auto& table = node.type().table();
+    if (table.shapes) {
+      const auto spec = spec_of(planned);
+      quell_error error{};
+      if (table.shapes(node.instance.data(), &spec, out.data(), &error))
+        throw Error(Exit::plugin, fmt::format("{} ({}): {}", node.name, table.name, error.text));
+    }
+    planned.tiled = -1;
+    for (std::size_t o = 0; o < out.size(); ++o) {
+      auto& value = values_[first_value_[n] + o];
+      const int with = node.type().outputs()[o].with;
+      value.shape = out[o];
+      value.exists = !node.type().is_weight() && (with < 0 || !node.in[std::size_t(with)].empty());
+      if (!value.exists) continue;
+      if (planned.tiled < 0 && is_pixels(value.type)) planned.tiled = int(o);
+      if (!settled) continue;
+      if (out[o].width <= 0 || out[o].height <= 0 || out[o].channels <= 0)
+        throw Error(Exit::plugin,
+                    fmt::format("{} ({}): output '{}' would be {}x{} with {} channels", node.name, table.name,
+                                node.type().outputs()[o].name, out[o].width, out[o].height, out[o].channels));
+    }
+    planned.tiled = std::max(planned.tiled, 0);
+    for (const auto& r : planned.reach) {
+      planned.step = std::max(planned.step, r.step);
+      planned.anywhere |= r.anywhere != 0;
+      planned.max_row_reach = std::max({planned.max_row_reach, r.up, r.down});
+    }
+  }
+}
+
+void Plan::lifetimes() {
+  const auto& g = *graph_;
+  const int end = int(g.nodes.size());
+  const auto read = [&](const Wire& wire, int step) {
+    auto& from = values_[value_of(wire.from)];
+    from.delay = std::max(from.delay, wire.delay);
+    if (wire.delay == 0) from.last = std::max(from.last, step);
+    if (wire.start.node != Source::kNone) {
+      auto& start = values_[value_of(wire.start)];
+      start.last = std::max(start.last, step);
+    }
+  };
+  for (std::size_t n = 0; n < g.nodes.size(); ++n)
+    for (std::size_t o = 0; o < g.nodes[n].type().outputs().size(); ++o) {
+      auto& v = values_[first_value_[n] + o];
+      v.first = v.last = int(n);
+    }
+  for (std::size_t n = 0; n < g.nodes.size(); ++n)
+    if (!g.nodes[n].type().is_weight()) for_each_read(g, n, [&](const Wire& wire) { read(wire, int(n)); });
+  for (const auto& output : g.outputs) {
+    read(output.wire, end);
+    values_[value_of(output.wire.from)].output = true;
+    if (output.wire.start.node != Source::kNone) values_[value_of(output.wire.start)].output = true;
+  }
+}
+
+void Plan::memory() {
+  std::vector<Interval> intervals;
+  std::vector<PlannedValue*> in_arena;
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    auto& v = values_[i];
+    if (!v.exists) continue;
+    v.floats = plane_floats(v.shape.width, v.shape.height) * std::size_t(v.shape.channels);
+    const bool input = i < graph_->inputs.size();
+    // One slot more for an input, so that the next frame is read while this one is filtered, and one more for an
+    // output, so that it is written while the next is filtered.
+    if (input || v.output || v.delay > 0) {
+      v.slots = v.delay + 1 + (input ? 1 : 0) + (v.output ? 1 : 0);
+      ring_floats_ += v.floats * std::size_t(v.slots);
+    } else {
+      intervals.push_back({v.first, v.last, v.floats});
+      in_arena.push_back(&v);
+    }
+  }
+  arena_floats_ = place(intervals);
+  for (std::size_t i = 0; i < intervals.size(); ++i) in_arena[i]->offset = intervals[i].offset;
+}
+
+std::size_t Plan::bytes_without_reuse() const {
+  std::size_t floats = ring_floats_;
+  for (const auto& v : values_)
+    if (v.slots == 0) floats += v.floats;
+  return floats * sizeof(float);
+}
+
+int Plan::band_rows(std::size_t node, int threads, int wanted) const {
+  const auto& planned = nodes_[node];
+  const int height = values_[first_value_[node] + std::size_t(planned.tiled)].shape.height;
+  if (wanted > 0) return std::min(wanted, height);
+  // Rows by residue need tall bands (8 steps); else bands are small enough to balance and tall enough to reuse their
+  // halo.
+  const int rows = std::max(32, 8 * planned.step);
+  const int bands = std::max(1, (height + rows - 1) / rows);
+  const int balanced = (bands + threads - 1) / threads * threads;
+  return std::max(1, (height + balanced - 1) / balanced);
+}
+
+std::string Plan::describe() const {
+  const auto& g = *graph_;
+  std::string out = fmt::format("{} nodes in order\n", g.nodes.size());
+  for (std::size_t n = 0; n < g.nodes.size(); ++n) {
+    const auto& p = nodes_[n];
+    const bool weight = g.nodes[n].type().is_weight();
+    std::string reach = p.anywhere ? "anywhere" : p.max_row_reach ? fmt::format("halo {}", p.max_row_reach) : "pixel";
+    if (p.step > 1) reach += fmt::format(", step {}", p.step);
+    out += fmt::format("{:4}  {:28} {:20} {:22}", n, g.nodes[n].name, g.nodes[n].type().name(), reach);
+    for (std::size_t o = 0; !weight && o < g.nodes[n].type().outputs().size(); ++o) {
+      const auto& v = values_[first_value_[n] + o];
+      if (!v.exists) continue;
+      out +=
+          fmt::format(" {}:{} {}x{}x{}{}", g.nodes[n].type().outputs()[o].name, type_name(v.type), v.shape.width,
+                      v.shape.height, v.shape.channels,
+                      v.slots ? fmt::format(" (ring of {})", v.slots) : fmt::format(" (steps {}-{})", v.first, v.last));
+    }
+    out += '\n';
+  }
+  const double mib = 1024.0 * 1024.0;
+  out += "inputs\n";
+  for (std::size_t i = 0; i < g.inputs.size(); ++i) {
+    const auto& v = values_[i];
+    out += fmt::format("      {:28} {:20} {}x{}x{} (ring of {})\n", v.name, type_name(v.type), v.shape.width,
+                       v.shape.height, v.shape.channels, v.slots);
+  }
+  out += fmt::format(
+      "memory: {:.1f} MiB: {:.1f} arena, {:.1f} rings of inputs, outputs and history ({:.1f} without reuse)\n",
+      double(bytes()) / mib, double(arena_floats_ * sizeof(float)) / mib, double(ring_floats_ * sizeof(float)) / mib,
+      double(bytes_without_reuse()) / mib);
+  return out;
+}
+
+Resources::Resources(const Graph& graph, const Plan& plan) {
+  for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
+    const auto& table = graph.nodes[n].type().table();
+    void* resource = nullptr;
+    if (table.prepare) {
+      const auto spec = spec_of(plan.nodes()[n]);
+      quell_error error{};
+      if (table.prepare(graph.nodes[n].instance.data(), &spec, &resource, &error))
+        throw Error(Exit::plugin, fmt::format("{} ({}): {}", graph.nodes[n].name, table.name, error.text));
+    }
+    resources_.emplace_back(
+        resource, table.release ? table.release : [](void*) {});
+  }
+}
+
+}  // namespace quell

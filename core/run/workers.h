@@ -1,0 +1,30 @@
+// The host's threads: one arena whose workers flush denormal numbers, on which nodes are run band by band.
+#pragma once
+
+#include "core/graph/graph.h"
+
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <cstdint>
+
+namespace quell {
+
+class Workers {
+ public:
+  // threads <= 0: one for each core that this process may use.
+  explicit Workers(int threads, const std::atomic<bool>* cancel = nullptr);
+  int threads() const { return threads_; }
+
+  // Runs a node over all rows of output `tiled`, in bands. `tile` has inputs, outputs and frame. Throws
+  // Error(Exit::plugin) with node, frame and rows when the node fails, Error(Exit::interrupted) when the run was
+  // cancelled.
+  void run(const GraphNode&, const void* resource, quell_tile tile, int tiled, int band_rows);
+
+ private:
+  int threads_;
+  tbb::task_arena arena_;
+  const std::atomic<bool>* cancel_;
+};
+
+}  // namespace quell
