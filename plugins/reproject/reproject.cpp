@@ -1,0 +1,39 @@
+// Fetches history from where each pixel was in the previous frame.
+#include <quell/node.h>
+
+#include "disocclusion/history.h"
+
+namespace {
+
+struct Reproject {
+  quell::In<quell::Any> image;
+  quell::In<quell::Motion> motion;
+  quell::In<quell::Taps> taps;
+  quell::Out<quell::Any> warped;
+
+  void describe(quell::Describe& d) {
+    d.summary("Fetches a previous frame along motion through validated taps; 0 where the pixel is disoccluded.");
+    d.source("Schied et al. 2017, Spatiotemporal Variance-Guided Filtering, section 4.1.");
+    d.in(image, "image", "An image of the previous frame: a delayed wire.").anywhere();
+    d.in(motion, "motion", "Pixels, previous − current.");
+    d.in(taps, "taps",
+         "Weights by disocclusion. Where all four are 0 but the mask holds valid pixels of the 3×3, their mean is "
+         "taken.");
+    d.out(warped, "image", "The history of each pixel, at the pixel. Zero motion gives the previous frame to the bit.")
+        .passes(image);
+  }
+
+  void run(const quell::Tile& tile) const {
+    const auto& from = tile[image];
+    quell::each_support(tile, motion, taps, from, [&](int x, int y, const quell::Support& s) {
+      for (int c = 0; c < from.channels; ++c) {
+        float sum = 0;
+        for (int t = 0; t < s.size; ++t) sum += s.weight[t] * from.plane[c][s.at[t]];
+        tile.row(warped, c, y)[x] = sum;
+      }
+    });
+  }
+};
+
+}  // namespace
+QUELL_PLUGIN("reproject", Reproject)
