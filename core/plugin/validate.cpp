@@ -13,6 +13,7 @@ namespace quell {
 namespace {
 
 constexpr int kMaxEntries = 4096;
+constexpr std::size_t kMaxInstance = 1u << 20;
 
 bool is_name(const char* s) {
   if (!s || *s < 'a' || *s > 'z') return false;
@@ -24,22 +25,27 @@ std::string shown(const char* s) { return s ? fmt::format("'{}'", s) : "(null)";
 
 bool counted(const void* list, int count) { return count >= 0 && count <= kMaxEntries && (count == 0 || list); }
 
+// Bytes that a parameter takes in the instance; 0 for a kind or a count that there is not.
 std::size_t bytes_of(const quell_param& p) {
+  if (p.kind == QUELL_FLOATS) return p.count > 0 ? std::size_t(p.count) * sizeof(float) : 0;
+  if (p.count != 1) return 0;
   switch (p.kind) {
     case QUELL_BOOL:
-      return 1;
+      return sizeof(std::uint8_t);
     case QUELL_INT:
-    case QUELL_FLOAT:
     case QUELL_CHOICE:
-      return 4;
-    case QUELL_FLOATS:
-      return p.count > 0 ? std::size_t(p.count) * 4 : 0;
+      return sizeof(std::int32_t);
+    case QUELL_FLOAT:
+      return sizeof(float);
     case QUELL_TEXT:
     case QUELL_PATH:
       return sizeof(quell_text);
     default:
       return 0;
   }
+}
+std::size_t align_of(const quell_param& p) {
+  return p.kind == QUELL_BOOL ? 1 : p.kind == QUELL_TEXT || p.kind == QUELL_PATH ? alignof(quell_text) : sizeof(float);
 }
 
 class Checker {
@@ -60,7 +66,7 @@ class Checker {
     if (n->out_count == 0) bad("has no output");
     if (n->instance_align == 0 || (n->instance_align & (n->instance_align - 1)) || n->instance_align > 4096)
       return bad("instance_align is {}", n->instance_align);
-    if (n->instance_size > (1u << 20)) return bad("instance_size is {}", n->instance_size);
+    if (n->instance_size > kMaxInstance) return bad("instance_size is {}", n->instance_size);
     if (!n->defaults && n->instance_size) return bad("defaults is null");
     if (!n->run == !n->weigh) bad("must have exactly one of run and weigh");
     if (!n->prepare != !n->release) bad("must have both or none of prepare and release");
@@ -136,8 +142,15 @@ class Checker {
         bad("parameter '{}': offset {} is outside the instance of {} bytes", p.name, p.offset, n.instance_size);
         continue;
       }
+      if (p.offset % align_of(p) != 0 || n.instance_align % align_of(p) != 0) {
+        bad("parameter '{}': offset {} in an instance aligned to {} is not aligned to {}", p.name, p.offset,
+            n.instance_align, align_of(p));
+        continue;
+      }
       if (!(p.min <= p.max)) bad("parameter '{}': range [{}, {}] is empty", p.name, p.min, p.max);
       const auto* at = static_cast<const std::byte*>(n.defaults) + p.offset;
+      if (p.kind == QUELL_BOOL && read<std::uint8_t>(at) > 1)
+        bad("parameter '{}': default {} is neither 0 nor 1", p.name, read<std::uint8_t>(at));
       if (p.kind == QUELL_CHOICE) choices(p, at);
       if (p.kind == QUELL_INT) in_range(p, read<std::int32_t>(at));
       if (p.kind == QUELL_FLOAT || p.kind == QUELL_FLOATS)
