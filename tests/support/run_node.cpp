@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <stdexcept>
 
@@ -28,7 +29,8 @@ float next(std::uint32_t& state) {
 }  // namespace
 
 Registry& registry() {
-  static Registry r({QUELL_TEST_PLUGINS});
+  const char* elsewhere = std::getenv("QUELL_TEST_PLUGINS");
+  static Registry r({elsewhere ? elsewhere : QUELL_TEST_PLUGINS});
   return r;
 }
 

@@ -13,7 +13,7 @@
 
 namespace quell::test {
 
-// All plugins of this build.
+// All plugins of this build; of the folder that QUELL_TEST_PLUGINS names in the environment, where it does.
 Registry& registry();
 
 using ParamValue = std::variant<bool, int, float, std::vector<float>, std::string>;  // text also names a choice
