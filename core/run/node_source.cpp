@@ -27,10 +27,13 @@ NodeSource::NodeSource(Instance node, std::vector<std::int64_t> frames, std::set
   const auto& type = node_.type();
   const auto& table = type.table();
   node_.in.resize(type.inputs().size());
-  const auto fail = [&](const std::string& why) { throw Error(Exit::plugin, fmt::format("source ({}): {}", table.name, why)); };
+  const auto fail = [&](const std::string& why) {
+    throw Error(Exit::plugin, fmt::format("source ({}): {}", table.name, why));
+  };
   if (!table.run || !table.shapes) fail("this node cannot be the source of a sequence: it needs inputs");
   for (const auto& port : type.inputs())
-    if (!(port.flags & (QUELL_OPTIONAL | QUELL_LIST))) fail(fmt::format("this node cannot be the source of a sequence: input '{}' is required", port.name));
+    if (!(port.flags & (QUELL_OPTIONAL | QUELL_LIST)))
+      fail(fmt::format("this node cannot be the source of a sequence: input '{}' is required", port.name));
   for (const auto& port : type.outputs()) {
     node_.out_types.push_back(port.type);
     roles_[port.name] = port.type;
@@ -59,7 +62,8 @@ bool NodeSource::cut_before(std::int64_t frame) const {
 
 std::size_t NodeSource::output(const std::string& role) const {
   const int index = node_.type().find_output(role);
-  if (index < 0) throw Error(Exit::input, fmt::format("the source node '{}' has no output '{}'", node_.type().name(), role));
+  if (index < 0)
+    throw Error(Exit::input, fmt::format("the source node '{}' has no output '{}'", node_.type().name(), role));
   return std::size_t(index);
 }
 

@@ -43,7 +43,10 @@ class FlushDenormals {
 }  // namespace
 
 Workers::Workers(int threads, const std::atomic<bool>* cancel)
-    : threads_(threads > 0 ? threads : usable_cores()), arena_(threads_), cancel_(cancel) {}
+    : threads_(threads > 0 ? threads : usable_cores()),
+      allowed_(tbb::global_control::max_allowed_parallelism, std::size_t(threads_)),
+      arena_(threads_),
+      cancel_(cancel) {}
 
 void Workers::run(const GraphNode& node, const void* resource, quell_tile tile, int tiled, int band_rows) {
   const int width = tile.out[tiled].width, height = tile.out[tiled].height;

@@ -3,6 +3,7 @@
 
 #include "core/graph/graph.h"
 
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include <atomic>
@@ -23,6 +24,7 @@ class Workers {
 
  private:
   int threads_;
+  tbb::global_control allowed_;  // as many as were asked for, even beyond the cores
   tbb::task_arena arena_;
   const std::atomic<bool>* cancel_;
 };
