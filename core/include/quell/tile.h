@@ -93,4 +93,14 @@ struct Tile : quell_tile {
   }
 };
 
+// The same for `weigh`, which has no tile.
+template <class T>
+bool has(const quell_input* in, In<T> p) {
+  return in[p.index].count > 0;
+}
+template <class T>
+const float* plane(const quell_input* in, In<T> p, int channel) {
+  return in[p.index].image[0].plane[channel];
+}
+
 }  // namespace quell

@@ -1,0 +1,231 @@
+// The gather engine: a weighted sum over taps, in segments of a row that stay in the first-level cache.
+//
+// For *_kernels.cpp only. gather(g, x, y, n, sums) leaves for each pixel of a segment W = Σw, Σw·v of each plane and
+// Σw²·variance, where w = kernel · 2^-(sum of the weight nodes' exponents) and the centre counts with its kernel weight
+// alone, so that W > 0 always. Taps outside the image count for nothing; neither do exponents that are not below 126,
+// NaN among them. What a pixel gets does not depend on the segment that it lies in.
+
+#include <quell/simd.h>
+
+#if defined(QUELL_GATHER_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef QUELL_GATHER_H_
+#undef QUELL_GATHER_H_
+#else
+#define QUELL_GATHER_H_
+#endif
+
+#include <quell/taps.h>
+
+QUELL_SIMD_BEGIN
+
+// Floats from a tap's exponents to the next's: no multiple of 4096 bytes, so that they do not compete for cache sets.
+constexpr std::ptrdiff_t kExponentRow = QUELL_SEGMENT + 16;
+
+struct Batch {
+  quell_run run;
+  const float* log2_kernel;
+  float* exponent;
+};
+
+// Weight of a tap, and whether it counts. Exponents beyond the range of floats are no weight at all, which also spares
+// denormals; neither is NaN.
+struct Weight {
+  M counts;
+  V w;
+};
+HWY_INLINE Weight weight_of(V log2_kernel, V exponent) {
+  const V x = log2_kernel - exponent;
+  const M counts = x > all(-126.0f);
+  return {counts, hn::IfThenElseZero(counts, exp2(x))};
+}
+
+// A neighbour's value. Beside the image's border what does not count may be anything, NaN too, so 0 times it must not
+// be taken.
+template <bool kBorder>
+HWY_INLINE V value_of(const float* from, M counts) {
+  const V v = load(from);
+  return kBorder ? hn::IfThenElseZero(counts, v) : v;
+}
+
+// Adds a batch to the sums, weights straight from the exponents: one or three planes, and with three the variance.
+template <int kPlanes, bool kVariance, bool kBorder>
+HWY_FLATTEN void add_by_exponent(const Batch& batch, const float* const* plane, const float* variance,
+                                 float* const* sum, float* sum_weight, float* sum_variance) {
+  const quell_run& run = batch.run;
+  constexpr int kLast = kPlanes - 1, kMiddle = kPlanes > 2 ? 1 : 0;
+  const float *p0 = plane[0] + run.at, *p1 = plane[kMiddle] + run.at, *p2 = plane[kLast] + run.at;
+  const float* pv = kVariance ? variance + run.at : p0;
+  for (int i = 0; i < run.n; i += kLanes) {
+    V s0 = load(sum[0] + i), s1 = load(sum[kMiddle] + i), s2 = load(sum[kLast] + i), sw = load(sum_weight + i);
+    V sv = kVariance ? load(sum_variance + i) : zero();
+    const float* e = batch.exponent + i;
+    for (int t = 0; t < run.taps; ++t, e += run.row) {
+      const std::ptrdiff_t o = run.tap[t].offset + i;
+      const auto [counts, w] = weight_of(all(batch.log2_kernel[t]), load(e));
+      s0 = mul_add(w, value_of<kBorder>(p0 + o, counts), s0);
+      if constexpr (kPlanes > 1) {
+        s1 = mul_add(w, value_of<kBorder>(p1 + o, counts), s1);
+        s2 = mul_add(w, value_of<kBorder>(p2 + o, counts), s2);
+      }
+      if constexpr (kVariance) sv = mul_add(w * w, value_of<kBorder>(pv + o, counts), sv);
+      sw = sw + w;
+    }
+    store(s0, sum[0] + i);
+    if constexpr (kPlanes > 1) {
+      store(s1, sum[kMiddle] + i);
+      store(s2, sum[kLast] + i);
+    }
+    if constexpr (kVariance) store(sv, sum_variance + i);
+    store(sw, sum_weight + i);
+  }
+}
+
+// For any number of planes: turns the exponents into weights once, in place, …
+inline void weights_in_place(const Batch& batch, float* sum_weight) {
+  const quell_run& run = batch.run;
+  for (int i = 0; i < run.n; i += kLanes) {
+    V sw = load(sum_weight + i);
+    float* e = batch.exponent + i;
+    for (int t = 0; t < run.taps; ++t, e += run.row) {
+      const V w = weight_of(all(batch.log2_kernel[t]), load(e)).w;
+      sw = sw + w;
+      store(w, e);
+    }
+    store(sw, sum_weight + i);
+  }
+}
+// … and adds the planes one by one, or the variance by squared weights.
+template <bool kSquared, bool kBorder>
+void add_by_weight(const Batch& batch, const float* plane, float* sum) {
+  const quell_run& run = batch.run;
+  for (int i = 0; i < run.n; i += kLanes) {
+    V s = load(sum + i);
+    const float* e = batch.exponent + i;
+    for (int t = 0; t < run.taps; ++t, e += run.row) {
+      const V w = load(e);
+      const V v = value_of<kBorder>(plane + run.at + run.tap[t].offset + i, w > zero());
+      s = mul_add(kSquared ? w * w : w, v, s);
+    }
+    store(s, sum + i);
+  }
+}
+
+template <bool kBorder>
+void add_batch(const Gather& g, const Batch& batch, Sums& sums) {
+  const std::size_t planes = g.planes.size();
+  if (planes == 3) {
+    float* const sum[] = {sums.plane(0), sums.plane(1), sums.plane(2)};
+    g.variance
+        ? add_by_exponent<3, true, kBorder>(batch, g.planes.data(), g.variance, sum, sums.weight(), sums.variance())
+        : add_by_exponent<3, false, kBorder>(batch, g.planes.data(), nullptr, sum, sums.weight(), nullptr);
+  } else if (planes == 1 && !g.variance) {
+    float* const sum[] = {sums.plane(0)};
+    add_by_exponent<1, false, kBorder>(batch, g.planes.data(), nullptr, sum, sums.weight(), nullptr);
+  } else {
+    weights_in_place(batch, sums.weight());
+    for (std::size_t p = 0; p < planes; ++p) add_by_weight<false, kBorder>(batch, g.planes[p], sums.plane(p));
+    if (g.variance) add_by_weight<true, kBorder>(batch, g.variance, sums.variance());
+  }
+}
+
+// Zero where a tap of the run lies in the image, +inf where it does not: adding to +inf cannot bring it back.
+inline void fence(const quell_run& run, int width, float* exponent) {
+  for (int t = 0; t < run.taps; ++t) {
+    const int first = -run.x - run.tap[t].dx, last = first + width;  // lanes whose tap is in the image
+    const V from = all(float(first)), to = all(float(last));
+    float* e = exponent + t * run.row;
+    for (int i = 0; i < run.n; i += kLanes) {
+      const V lane = lane_numbers() + all(float(i));
+      store(hn::IfThenElse(hn::And(lane >= from, lane < to), zero(), all(HUGE_VALF)), e + i);
+    }
+  }
+}
+
+inline void start_sums(const Gather& g, std::ptrdiff_t at, int n, Sums& sums) {
+  const V c = all(g.taps.centre);
+  for (int i = 0; i < n; i += kLanes) {
+    for (std::size_t p = 0; p < g.planes.size(); ++p) store(c * load(g.planes[p] + at + i), sums.plane(p) + i);
+    store(c, sums.weight() + i);
+    if (g.variance) store(c * c * load(g.variance + at + i), sums.variance() + i);
+  }
+}
+
+// Segment (x … x + n - 1, y), n <= QUELL_SEGMENT. Sums are written up to n rounded up to a vector.
+inline void gather(const Gather& g, int x, int y, int n, Sums& sums) {
+  alignas(64) float exponent[QUELL_MAX_TAPS * kExponentRow];
+  const std::ptrdiff_t at = y * g.pitch + x;
+  start_sums(g, at, n, sums);
+  const bool rows_inside = y >= g.taps.reach_y && y + g.taps.reach_y < g.height;
+  const bool border = x < g.taps.reach_x || x + n + g.taps.reach_x > g.width;
+  quell_tap inside[QUELL_MAX_TAPS];
+  float inside_kernel[QUELL_MAX_TAPS];
+  const int count = int(g.taps.tap.size());
+  for (int first = 0; first < count; first += QUELL_MAX_TAPS) {
+    const quell_tap* tap = g.taps.tap.data() + first;
+    Batch batch{
+        {x, y, n, (count - first < QUELL_MAX_TAPS ? count - first : QUELL_MAX_TAPS), tap, at, kExponentRow, 1, 0},
+        g.taps.log2_kernel.data() + first,
+        exponent};
+    quell_run& run = batch.run;
+    if (!rows_inside) {
+      int kept = 0;
+      for (int t = 0; t < run.taps; ++t) {
+        if (y + tap[t].dy < 0 || y + tap[t].dy >= g.height) continue;
+        inside[kept] = tap[t];
+        inside_kernel[kept++] = batch.log2_kernel[t];
+      }
+      if (!kept) continue;
+      if (kept < run.taps) run.paired = 0;
+      run.taps = kept, run.tap = inside, batch.log2_kernel = inside_kernel;
+    }
+    const bool fenced = border || g.weights.empty();
+    if (fenced) fence(run, g.width, exponent);
+    run.store = !fenced;
+    for (const quell_bound_weight& w : g.weights) {
+      w.weigh(w.instance, w.resource, w.in, &run, exponent);
+      run.store = 0;
+    }
+    border ? add_batch<true>(g, batch, sums) : add_batch<false>(g, batch, sums);
+  }
+}
+
+// Rows of a tile in segments; with step > 1 the rows of one residue class after another, for they share most of what
+// they read. Within `border` pixels of the image's sides segments are cut short, so that little goes the way of
+// borders.
+template <class Visit>
+HWY_INLINE void for_each_segment(const quell_tile& tile, int step, int border, int width, Visit visit) {
+  const int left = (border + 31) / 32 * 32, right = width - border;
+  for (int residue = 0; residue < step; ++residue)
+    for (int y = tile.y0 + residue; y < tile.y1; y += step)
+      for (int x = tile.x0, end; x < tile.x1; x = end) {
+        end = x + QUELL_SEGMENT;
+        if (x < left && left < end) end = left;
+        if (right < end && right - x >= 32) end = x + (right - x) / 32 * 32;
+        if (end > tile.x1) end = tile.x1;
+        visit(x, y, end - x);
+      }
+}
+
+// What filters make of the sums: each plane's weighted mean, and the variance of a weighted mean of independent values.
+// Σw²·variance / W².
+inline void store_means(const Gather& g, Sums& sums, int x, int y, int n, const quell_image& out, float* variance) {
+  const std::ptrdiff_t to = y * out.pitch + x;
+  for (int i = 0; i < n; i += kLanes) {
+    const V inverse = all(1.0f) / load(sums.weight() + i);
+    for (std::size_t p = 0; p < g.planes.size(); ++p)
+      store(load(sums.plane(p) + i) * inverse, out.plane[p] + to + i, n - i);
+    if (variance) store(load(sums.variance() + i) * (inverse * inverse), variance + to + i, n - i);
+  }
+}
+
+// A whole filter: the weighted means of a tile. `variance` is where their variance goes, or null.
+inline void gather_tile(const Gather& g, const quell_tile& tile, int step, const quell_image& out, float* variance) {
+  Sums sums(g.planes.size());
+  for_each_segment(tile, step, g.taps.reach_x, g.width, [&](int x, int y, int n) HWY_ATTR {
+    gather(g, x, y, n, sums);
+    store_means(g, sums, x, y, n, out, variance);
+  });
+}
+
+QUELL_SIMD_END
+#endif
