@@ -1,0 +1,33 @@
+// color_weight against its formula in double precision.
+#include "tests/support/weight_oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace quell::test {
+namespace {
+
+constexpr int kWidth = 150, kHeight = 19;
+
+// Channels go in threes and ones, so all remainders are of interest.
+TEST(ColorWeight, AnyNumberOfChannels) {
+  for (const int channels : {1, 2, 3, 4, 5, 7}) {
+    SCOPED_TRACE(channels);
+    const auto image = noise_image(kWidth, kHeight, channels, 13);
+    Node node("color_weight");
+    node.set("sigma", 0.3f).in("image", image);
+    check_weight(
+        node, kWidth, kHeight,
+        [&](int x, int y, int dx, int dy) {
+          double squared = 0;
+          for (int c = 0; c < channels; ++c)
+            squared += std::pow(double(image.at(c, x, y)) - image.at(c, x + dx, y + dy), 2);
+          return std::exp(-squared / (2 * 0.3 * 0.3));
+        },
+        5e-6);
+  }
+}
+
+}  // namespace
+}  // namespace quell::test

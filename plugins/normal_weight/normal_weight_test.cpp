@@ -1,0 +1,69 @@
+// normal_weight against its formula in double precision.
+#include "tests/support/weight_oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quell::test {
+namespace {
+
+constexpr int kWidth = 150, kHeight = 19;
+
+bool is_miss(const Image& n, int x, int y) { return n.at(0, x, y) == 0 && n.at(1, x, y) == 0 && n.at(2, x, y) == 0; }
+
+double cosine(const Image& n, int x, int y, int dx, int dy) {
+  double sum = 0;
+  for (int c = 0; c < 3; ++c) sum += double(n.at(c, x, y)) * n.at(c, x + dx, y + dy);
+  return std::clamp(sum, 0.0, 1.0);
+}
+
+template <class Falloff>
+WeightFormula formula(const Image& n, Falloff falloff) {
+  return [&n, falloff](int x, int y, int dx, int dy) {
+    const bool here = is_miss(n, x, y), there = is_miss(n, x + dx, y + dy);
+    return here || there ? double(here && there) : falloff(cosine(n, x, y, dx, dy));
+  };
+}
+
+// Floats hold n·n' to 1e-7, of which a power makes power·1e-7; the series adds 1e-5 where it is coarsest.
+TEST(NormalWeight, Power) {
+  const auto normal = normal_image(kWidth, kHeight, 3, true);
+  for (const float power : {1.0f, 8.0f, 47.0f, 48.0f, 128.0f, 1000.0f}) {
+    SCOPED_TRACE(power);
+    Node node("normal_weight");
+    node.set("power", power).in("normal", normal);
+    check_weight(node, kWidth, kHeight, formula(normal, [=](double c) { return std::pow(c, double(power)); }),
+                 2e-5 + 3e-7 * power);
+  }
+}
+
+TEST(NormalWeight, Angle) {
+  const auto normal = normal_image(kWidth, kHeight, 4, true);
+  for (const float sigma : {0.05f, 0.1f, 0.5f, 3.0f}) {
+    SCOPED_TRACE(sigma);
+    Node node("normal_weight");
+    node.set("mode", "angle").set("sigma", sigma).in("normal", normal);
+    // 1 - n·n' is held to 1e-7, the squared angle to 2e-7.
+    check_weight(
+        node, kWidth, kHeight,
+        formula(normal, [=](double c) { return std::exp(-std::pow(std::acos(c), 2) / (2.0 * sigma * sigma)); }),
+        1e-6 + 2e-7 / (sigma * sigma));
+  }
+}
+
+// The miss test of a segment must not be fooled by single zero components.
+TEST(NormalWeight, AxisNormalsAreNoMisses) {
+  Image normal(40, 3, 3);
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 40; ++x) normal.at(x % 3, x, y) = x % 2 ? -1.0f : 1.0f;
+  for (const char* mode : {"power", "angle"}) {
+    Node node("normal_weight");
+    node.set("mode", mode).in("normal", normal);
+    check_weight(node, 40, 3, formula(normal, [](double c) { return c > 0.5 ? 1.0 : 0.0; }), 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace quell::test

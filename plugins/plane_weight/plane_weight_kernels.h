@@ -1,0 +1,16 @@
+// Kernels of plane_weight: exponents from the centre's tangent plane.
+#pragma once
+
+#include <quell/abi.h>
+
+namespace quell {
+
+struct Surface {
+  const float *x, *y, *z;     // position
+  const float *nx, *ny, *nz;  // normal
+};
+
+void plane_weigh_sine(const quell_run&, Surface, float sigma, float* exponent);
+void plane_weigh_distance(const quell_run&, Surface, float sigma, float* exponent);
+
+}  // namespace quell
