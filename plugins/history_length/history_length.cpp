@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "disocclusion/history.h"
+#include "history_length/history_length_kernels.h"
 
 namespace {
 
@@ -27,19 +27,14 @@ struct HistoryLength {
   }
 
   void run(const quell::Tile& tile) const {
-    const auto& from = tile[before];
-    const bool missing = tile.missing(before);
-    quell::each_support(tile, motion, taps, from, [&](int x, int y, const quell::Support& s) {
-      float n = 1;
-      if (s.size > 0 && !missing) {
-        // As differences from the first, so that equal counts stay whole numbers.
-        const float first = from.plane[0][s.at[0]];
-        float more = 0;
-        for (int t = 1; t < s.size; ++t) more += s.weight[t] * (from.plane[0][s.at[t]] - first);
-        n = std::clamp(first + more + 1, 1.0f, float(max));
-      }
-      tile.row(count, 0, y)[x] = n;
-    });
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      float* out = tile.row(count, 0, y);
+      if (tile.missing(before))
+        std::fill(out + tile.x0, out + tile.x1, 1.0f);
+      else
+        quell::count_row(quell::taps_row(tile, motion, taps, tile[before], y), tile.x0, tile.x1, tile.row(before, 0, 0),
+                         float(max), out);
+    }
   }
 };
 

@@ -1,16 +1,17 @@
 // Pulls fireflies into the range that their neighbours support.
 #include <quell/node.h>
 
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
+#include <vector>
 
-#include "outlier_clamp/window.h"
+#include "outlier_clamp/outlier_clamp_kernels.h"
 
 namespace {
 
 // Where the neighbours are all alike, leaving out the centre leaves no spread at all; this share of their mean is
 // always allowed.
-constexpr double kLeastSpread = 1e-3;
+constexpr float kLeastSpread = 1e-3f;
 
 enum class Mode : std::int32_t { channel, luminance };
 
@@ -43,44 +44,37 @@ struct OutlierClamp {
 
   void run(const quell::Tile& tile) const {
     const auto& in = tile[image];
-    quell::Window window(radius, exclude_center, in.width, in.height);
-    for (int y = tile.y0; y < tile.y1; ++y) {
-      if (mode == Mode::channel)
-        clamp_channels(tile, window, y);
-      else
-        clamp_luminance(tile, window, y);
-    }
-  }
-
-  void clamp_channels(const quell::Tile& tile, quell::Window& window, int y) const {
+    quell::WindowMemory memory(tile.x1 - tile.x0, radius);
+    quell::WindowRange window{nullptr, in.pitch, in.width,       in.height,
+                              radius,  k,        exclude_center, exclude_center ? kLeastSpread : 0.0f,
+                              {},      nullptr,  nullptr};
+    memory.lend(window);
+    if (mode == Mode::luminance) return by_luminance(tile, window);
     for (int c = 0; c < 3; ++c) {
-      const float* plane = tile.row(image, c, 0);
-      const auto pitch = tile[image].pitch;
-      const auto& stats = window.row(y, tile.x0, tile.x1, [&](int u, int v) { return double(plane[v * pitch + u]); });
-      for (int x = tile.x0; x < tile.x1; ++x)
-        tile.row(clamped, c, y)[x] = pull(plane[y * pitch + x], stats[std::size_t(x - tile.x0)]);
+      window.plane = in.plane[c];
+      for (int y = tile.y0; y < tile.y1; ++y)
+        quell::clamp_channel(window, y, tile.x0, tile.x1, tile.row(clamped, c, y));
     }
   }
 
-  void clamp_luminance(const quell::Tile& tile, quell::Window& window, int y) const {
-    const auto luminance = [&](int u, int v) {
-      return 0.2126f * tile.row(image, 0, v)[u] + 0.7152f * tile.row(image, 1, v)[u] +
-             0.0722f * tile.row(image, 2, v)[u];
-    };
-    const auto& stats = window.row(y, tile.x0, tile.x1, luminance);
-    for (int x = tile.x0; x < tile.x1; ++x) {
-      const float l = luminance(x, y), to = pull(l, stats[std::size_t(x - tile.x0)]);
-      for (int c = 0; c < 3; ++c) {
-        const float v = tile.row(image, c, y)[x];
-        tile.row(clamped, c, y)[x] = l > 0 && to != l ? v * (to / l) : v;
-      }
+ private:
+  void by_luminance(const quell::Tile& tile, quell::WindowRange& window) const {
+    // Luminance of the tile and what its windows reach.
+    const int left = std::max(tile.x0 - radius, 0), right = std::min(tile.x1 + radius, window.width);
+    const int top = std::max(tile.y0 - radius, 0), bottom = std::min(tile.y1 + radius, window.height);
+    const std::ptrdiff_t pitch = (right - left + 15) / 16 * 16 + 16;  // vectors read past the last one
+    std::vector<float> plane(std::size_t(pitch * (bottom - top)));
+    window.pitch = pitch;
+    window.plane = plane.data() - top * pitch - left;
+    for (int y = top; y < bottom; ++y) {
+      const float* const in[3] = {tile.row(image, 0, y), tile.row(image, 1, y), tile.row(image, 2, y)};
+      quell::luminance_row(in, left, right, plane.data() + (y - top) * pitch - left);
     }
-  }
-
-  float pull(float v, const quell::Statistics& s) const {
-    if (s.count < 2) return v;
-    const double sigma = exclude_center ? std::max(s.sigma, kLeastSpread * std::abs(s.mean)) : s.sigma;
-    return quell::clamp_around(v, s.mean, k * sigma);
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      const float* const in[3] = {tile.row(image, 0, y), tile.row(image, 1, y), tile.row(image, 2, y)};
+      float* const out[3] = {tile.row(clamped, 0, y), tile.row(clamped, 1, y), tile.row(clamped, 2, y)};
+      quell::clamp_luminance(window, y, tile.x0, tile.x1, in, out);
+    }
   }
 };
 

@@ -1,71 +1,79 @@
-// Mean and standard deviation over a square window around each pixel, cut off at the image border.
-#pragma once
+// The range mean ± k·sigma of the square window around each pixel, cut off at the image border. For *_kernels.cpp only.
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
+#include <quell/simd.h>
 
-namespace quell {
+#if defined(QUELL_WINDOW_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef QUELL_WINDOW_H_
+#undef QUELL_WINDOW_H_
+#else
+#define QUELL_WINDOW_H_
+#endif
 
-struct Statistics {
-  double mean, sigma;
-  int count;
-};
+#include "outlier_clamp/window_range.h"
 
-// Sums over columns first and then along the row, each in one fixed order, so that a pixel's numbers depend on its
-// window alone. In double, for the variance is a difference of sums. Leaving the centre out leaves it out of the sums:
-// subtracting a firefly from them again would cost the very digits that its neighbours are in.
-class Window {
- public:
-  Window(int radius, bool without_center, int width, int height)
-      : radius_(radius), without_center_(without_center), width_(width), height_(height) {}
+QUELL_SIMD_BEGIN
 
-  // Statistics of columns [x0, x1) of row y, of values value(x, y).
-  template <class Value>
-  const std::vector<Statistics>& row(int y, int x0, int x1, Value&& value) {
-    const int left = std::max(x0 - radius_, 0), right = std::min(x1 + radius_, width_);
-    const int top = std::max(y - radius_, 0), bottom = std::min(y + radius_ + 1, height_);
-    columns_.assign(std::size_t(right - left), {});
-    holes_.assign(std::size_t(right - left), {});
-    for (int v = top; v < bottom; ++v)
-      for (int u = left; u < right; ++u) {
-        const double l = value(u, v);
-        columns_[std::size_t(u - left)] += {l, l * l};
-        if (without_center_ && v != y) holes_[std::size_t(u - left)] += {l, l * l};
-      }
-    result_.resize(std::size_t(x1 - x0));
-    for (int x = x0; x < x1; ++x) {
-      const int from = std::max(x - radius_, 0), to = std::min(x + radius_ + 1, width_);
-      Sums s{};
-      for (int u = from; u < to; ++u)
-        s += without_center_ && u == x ? holes_[std::size_t(u - left)] : columns_[std::size_t(u - left)];
-      const int count = (to - from) * (bottom - top) - (without_center_ ? 1 : 0);
-      const double n = std::max(count, 1), mean = s.first / n;
-      result_[std::size_t(x - x0)] = {mean, std::sqrt(std::max(s.second / n - mean * mean, 0.0)), count};
+using D = hn::ScalableTag<double>;
+using VD = hn::Vec<D>;
+constexpr D dd;
+constexpr hn::Rebind<float, D> half;
+constexpr int kDoubles = int(hn::MaxLanes(dd));
+
+// Sums of each column of the window, with and without row y. Columns beside the image sum to 0.
+HWY_INLINE void sum_columns(const WindowRange& w, int y, int x0, int x1) {
+  const int left = x0 - w.radius, right = x1 + w.radius;
+  const int from = left < 0 ? 0 : left, to = right > w.width ? w.width : right;
+  const int top = y < w.radius ? 0 : y - w.radius, bottom = y + w.radius < w.height ? y + w.radius + 1 : w.height;
+  for (int k = 0; k < 4; ++k)
+    for (int u = left; u < right; ++u)
+      if (u < from || u >= to) w.sums[k][u - left] = 0;
+  for (int u = from; u < to; u += kDoubles) {
+    VD first = hn::Zero(dd), second = first, first_hole = first, second_hole = first;
+    for (int v = top; v < bottom; ++v) {
+      const VD value = hn::PromoteTo(dd, hn::LoadU(half, w.plane + v * w.pitch + u));
+      first = first + value;
+      second = hn::MulAdd(value, value, second);
+      if (!w.without_center || v == y) continue;
+      first_hole = first_hole + value;
+      second_hole = hn::MulAdd(value, value, second_hole);
     }
-    return result_;
+    const VD sums[4] = {first, second, first_hole, second_hole};
+    for (int k = 0; k < 4; ++k)
+      hn::BlendedStore(sums[k], hn::FirstN(dd, std::size_t(to - u)), dd, w.sums[k] + u - left);
   }
-
- private:
-  struct Sums {
-    double first = 0, second = 0;
-    Sums& operator+=(const Sums& o) {
-      first += o.first;
-      second += o.second;
-      return *this;
-    }
-  };
-
-  int radius_;
-  bool without_center_;
-  int width_, height_;
-  std::vector<Sums> columns_, holes_;  // of each column of the window, with and without row y
-  std::vector<Statistics> result_;
-};
-
-// `v` moved into mean ± reach.
-inline float clamp_around(float v, double mean, double reach) {
-  return std::min(std::max(v, float(mean - reach)), float(mean + reach));
 }
 
-}  // namespace quell
+// Fills low and high for pixels [x0, x1) of row y, from index 0. In double, for the variance is a difference of sums.
+// These are taken over columns and then along the row in one order, so a pixel's range depends on its window alone. A
+// centre that does not count is left out of them: to subtract a firefly again would cost the digits that its neighbours
+// are in.
+HWY_INLINE void ranges(const WindowRange& w, int y, int x0, int x1) {
+  sum_columns(w, y, x0, x1);
+  const int rows = (y + w.radius < w.height ? y + w.radius + 1 : w.height) - (y < w.radius ? 0 : y - w.radius);
+  const VD least = hn::Set(dd, double(w.least_spread)), k = hn::Set(dd, double(w.k));
+  for (int i = 0; i < x1 - x0; i += kDoubles) {
+    VD first = hn::Zero(dd), second = first;
+    for (int t = 0; t <= 2 * w.radius; ++t) {
+      const int hole = w.without_center && t == w.radius ? 2 : 0;
+      first = first + hn::LoadU(dd, w.sums[hole] + i + t);
+      second = second + hn::LoadU(dd, w.sums[hole + 1] + i + t);
+    }
+    const VD x = hn::Iota(dd, double(x0 + i)), r = hn::Set(dd, double(w.radius));
+    const VD columns = hn::Min(x + r + hn::Set(dd, 1.0), hn::Set(dd, double(w.width))) - hn::Max(x - r, hn::Zero(dd));
+    const VD n = columns * hn::Set(dd, double(rows)) - hn::Set(dd, w.without_center ? 1.0 : 0.0);
+    const VD divisor = hn::Max(n, hn::Set(dd, 1.0)), mean = first / divisor;
+    const VD variance = hn::NegMulAdd(mean, mean, second / divisor);
+    const VD sigma = hn::Sqrt(hn::Max(variance, hn::Zero(dd)));
+    const VD reach = hn::IfThenElse(n < hn::Set(dd, 2.0), hn::Set(dd, w.without_center ? HUGE_VAL : 0.0),
+                                    k * hn::Max(sigma, least * hn::Abs(mean)));
+    hn::StoreU(hn::DemoteTo(half, mean - reach), half, w.low + i);
+    hn::StoreU(hn::DemoteTo(half, mean + reach), half, w.high + i);
+  }
+}
+
+HWY_INLINE V into_range(V v, const WindowRange& w, int i) {
+  return hn::Min(hn::Max(v, load(w.low + i)), load(w.high + i));
+}
+
+QUELL_SIMD_END
+#endif

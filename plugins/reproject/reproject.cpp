@@ -1,7 +1,7 @@
 // Fetches history from where each pixel was in the previous frame.
 #include <quell/node.h>
 
-#include "disocclusion/history.h"
+#include "reproject/reproject_kernels.h"
 
 namespace {
 
@@ -24,14 +24,8 @@ struct Reproject {
   }
 
   void run(const quell::Tile& tile) const {
-    const auto& from = tile[image];
-    quell::each_support(tile, motion, taps, from, [&](int x, int y, const quell::Support& s) {
-      for (int c = 0; c < from.channels; ++c) {
-        float sum = 0;
-        for (int t = 0; t < s.size; ++t) sum += s.weight[t] * from.plane[c][s.at[t]];
-        tile.row(warped, c, y)[x] = sum;
-      }
-    });
+    for (int y = tile.y0; y < tile.y1; ++y)
+      quell::warp_row(quell::taps_row(tile, motion, taps, tile[image], y), tile.x0, tile.x1, tile[image], tile[warped]);
   }
 };
 

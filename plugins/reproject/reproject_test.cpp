@@ -76,6 +76,14 @@ TEST(reproject, without_motion_is_the_identity_to_the_bit) {
       for (int x = 0; x < 17; ++x) EXPECT_EQ(out.at(c, x, y), before.at(c, x, y));
 }
 
+TEST(reproject, far_out_of_the_image_is_nothing) {
+  const auto motion = constant_image(41, 5, 2, 1e6f), before = noise_image(41, 5, 3, 2);
+  const auto taps = constant_image(41, 5, 5, 0.25f);  // that do not belong to this motion
+  const auto out = Node("reproject").in("image", before).in("motion", motion).in("taps", taps).run("image");
+  for (int y = 0; y < 5; ++y)
+    for (int x = 0; x < 41; ++x) EXPECT_EQ(out.at(0, x, y), 0);
+}
+
 TEST(reproject, keeps_what_is_constant) {
   Guides s(23, 11, 2);
   const auto before = constant_image(23, 11, 1, 0.7f);

@@ -1,7 +1,7 @@
 // Pulls history into the range of the current frame's neighbourhood, so that what has changed does not linger.
 #include <quell/node.h>
 
-#include "outlier_clamp/window.h"
+#include "temporal_clamp/temporal_clamp_kernels.h"
 
 namespace {
 
@@ -26,19 +26,13 @@ struct TemporalClamp {
 
   void run(const quell::Tile& tile) const {
     const auto& now = tile[current];
-    quell::Window window(radius, false, now.width, now.height);
+    quell::WindowMemory memory(tile.x1 - tile.x0, radius);
+    quell::WindowRange window{nullptr, now.pitch, now.width, now.height, radius, k, false, 0.0f, {}, nullptr, nullptr};
+    memory.lend(window);
     for (int c = 0; c < now.channels; ++c) {
-      const float* plane = now.plane[c];
-      for (int y = tile.y0; y < tile.y1; ++y) {
-        const auto& stats =
-            window.row(y, tile.x0, tile.x1, [&](int u, int v) { return double(plane[v * now.pitch + u]); });
-        const float* then = tile.row(history, c, y);
-        float* out = tile.row(clamped, c, y);
-        for (int x = tile.x0; x < tile.x1; ++x) {
-          const auto& s = stats[std::size_t(x - tile.x0)];
-          out[x] = quell::clamp_around(then[x], s.mean, k * s.sigma);
-        }
-      }
+      window.plane = now.plane[c];
+      for (int y = tile.y0; y < tile.y1; ++y)
+        quell::clamp_history(window, y, tile.x0, tile.x1, tile.row(history, c, y), tile.row(clamped, c, y));
     }
   }
 };
