@@ -1,6 +1,7 @@
 // What every node keeps, whatever it does: checked on each plugin found, from its table alone.
 #include "tests/contract/checks.h"
 #include "tests/contract/use.h"
+#include "tests/support/each_target.h"
 #include "tests/support/run_node.h"
 
 #include <quell/types.h>
@@ -65,6 +66,11 @@ std::vector<Choices> wirings(const NodeType& type, Size size) {
   bare.optional = false, bare.listed = 1;
   if (!bare.weights.empty()) bare.weights.resize(1);
   list.push_back(bare);
+  for (std::size_t i = 0; i < type.inputs().size(); ++i)
+    if (type.inputs()[i].flags & QUELL_OPTIONAL) {
+      list.push_back(all);
+      list.back().only = int(i);
+    }
   if (has_input(type, QUELL_WEIGHT))
     for (const auto* weight : all.weights) {
       list.push_back(all);
@@ -155,8 +161,10 @@ TEST_P(Contract, DeclaresItsReach) {
 }
 
 TEST_P(Contract, RunsAtEverySize) {
-  for (const Size size : {Size{1, 1}, Size{1, 9}, Size{9, 1}, Size{2, 2}, kSmall, Size{16, 5}, kLarge})
-    in_each_wiring(size, [](const Use& use) { return use.type->is_weight() ? "" : breaks_when_run(use); });
+  for_each_target([&] {
+    for (const Size size : {Size{1, 1}, Size{1, 9}, Size{9, 1}, Size{2, 2}, kSmall, Size{16, 5}, kLarge})
+      in_each_wiring(size, [](const Use& use) { return use.type->is_weight() ? "" : breaks_when_run(use); });
+  });
 }
 
 TEST_P(Contract, RunsWithoutAPast) {
@@ -180,11 +188,14 @@ TEST_P(Contract, GivesTheSameBitsInAnyTiles) {
   struct Tiles {
     int rows, columns;
   };
-  for (const Tiles t : {Tiles{1, 0}, Tiles{7, 0}, Tiles{64, 0}, Tiles{0, 0}, Tiles{16, 32}, Tiles{5, 23}})
-    in_each_wiring(kLarge, [&](const Use& use) {
-      const auto text = use.type->is_weight() ? "" : breaks_in_tiles(use, t.rows, t.columns);
-      return text.empty() ? text : "tiles of " + std::to_string(t.rows) + "x" + std::to_string(t.columns) + ": " + text;
-    });
+  for_each_target([&] {
+    for (const Tiles t : {Tiles{1, 0}, Tiles{7, 0}, Tiles{64, 0}, Tiles{0, 0}, Tiles{16, 32}, Tiles{5, 23}})
+      in_each_wiring(kLarge, [&](const Use& use) {
+        const auto text = use.type->is_weight() ? "" : breaks_in_tiles(use, t.rows, t.columns);
+        return text.empty() ? text
+                            : "tiles of " + std::to_string(t.rows) + "x" + std::to_string(t.columns) + ": " + text;
+      });
+  });
 }
 
 TEST_P(Contract, GivesTheSameBitsOnAnyThreads) {
@@ -198,8 +209,10 @@ TEST_P(Contract, KeepsNonFiniteNumbersWithinItsReach) {
 class WeightContract : public Contract {};
 
 TEST_P(WeightContract, WeighsRuns) {
-  for (const Size size : {Size{1, 1}, Size{1, 9}, kSmall, Size{200, 6}})
-    in_each_wiring(size, [](const Use& use) { return breaks_when_weighing(use); });
+  for_each_target([&] {
+    for (const Size size : {Size{1, 1}, Size{1, 9}, kSmall, Size{200, 6}})
+      in_each_wiring(size, [](const Use& use) { return breaks_when_weighing(use); });
+  });
 }
 
 // A number at the end of its range may contradict another parameter: then the node says so.

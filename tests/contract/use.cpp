@@ -19,9 +19,11 @@ Use::Use(const NodeType& node, const Choices& choices) : type(&node), instance(n
   std::uint32_t seed = 1;
   for (const auto& port : node.inputs()) {
     auto& p = in.emplace_back();
+    const int index = int(in.size()) - 1;
     p.type = port.type == QUELL_ANY ? choices.any : port.type;
     ++seed;
-    if ((port.flags & QUELL_OPTIONAL) && !choices.optional) continue;
+    const bool wanted = choices.optional && (choices.only < 0 || choices.only == index);
+    if ((port.flags & QUELL_OPTIONAL) && !wanted) continue;
     if (p.type == QUELL_WEIGHT) {
       for (const auto* weight : choices.weights) p.weights.emplace_back(*weight, choices);
       continue;

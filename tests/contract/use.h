@@ -20,6 +20,7 @@ struct Choices {
   int width = 67, height = 41;
   int any = QUELL_RADIANCE;              // what ports of type any are bound to
   bool optional = true;                  // optional ports are connected
+  int only = -1;                         // input port: of the optional ones, this one alone is connected
   int listed = 2;                        // images on a list port
   bool missing = false;                  // every image is a delayed wire without a past
   std::vector<const NodeType*> weights;  // wired to each port that takes weights
