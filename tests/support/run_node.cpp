@@ -9,6 +9,12 @@
 #include <memory>
 #include <stdexcept>
 
+#ifdef QUELL_STATIC_PLUGIN_LIST
+#define QUELL_STATIC_PLUGIN(name) extern "C" const quell_plugin_table* quell_plugin_##name(void);
+#include QUELL_STATIC_PLUGIN_LIST
+#undef QUELL_STATIC_PLUGIN
+#endif
+
 namespace quell::test {
 
 namespace {
@@ -29,9 +35,17 @@ float next(std::uint32_t& state) {
 }  // namespace
 
 Registry& registry() {
-  const char* elsewhere = std::getenv("QUELL_TEST_PLUGINS");
-  static Registry r({elsewhere ? elsewhere : QUELL_TEST_PLUGINS});
-  return r;
+  static Registry registry = [] {
+    const char* elsewhere = std::getenv("QUELL_TEST_PLUGINS");
+    Registry made({elsewhere ? elsewhere : QUELL_TEST_PLUGINS});
+#ifdef QUELL_STATIC_PLUGIN_LIST
+#define QUELL_STATIC_PLUGIN(name) made.add_static(quell_plugin_##name());
+#include QUELL_STATIC_PLUGIN_LIST
+#undef QUELL_STATIC_PLUGIN
+#endif
+    return made;
+  }();
+  return registry;
 }
 
 Node::Node(std::string_view type)
