@@ -1,0 +1,22 @@
+// Estimates the light that reaches the camera along a ray.
+#pragma once
+
+#include "path_tracer/lights.h"
+#include "path_tracer/sampler.h"
+
+namespace path_tracer {
+
+// One moment of a scene, ready to be traced. Borrows everything.
+struct Moment {
+  const Scene& scene;
+  const Geometry& geometry;
+  const Placement& placement;
+  const Lights& lights;
+};
+
+// One sample of the radiance along `ray`, whose first hit is given: unidirectional path tracing, at each vertex one
+// lamp and one scattered direction, combined by the balance heuristic (Veach and Guibas 1995, eq. 12). A path ends
+// after `max_bounces` scatterings, and earlier by Russian roulette on its throughput.
+Rgb path_radiance(const Moment&, const Ray& ray, const std::optional<Hit>& first, const Sampler&, int max_bounces);
+
+}  // namespace path_tracer
