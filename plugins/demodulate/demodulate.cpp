@@ -1,7 +1,8 @@
 // Divides albedo out of radiance, so that filters see light and not texture.
 #include <quell/node.h>
 
-#include "demodulate/divisor.h"
+#include "demodulate/demodulate_kernels.h"
+#include "demodulate/rgb.h"
 
 namespace {
 
@@ -24,12 +25,8 @@ struct Demodulate {
 
   void run(const quell::Tile& tile) const {
     for (int y = tile.y0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x) {
-        const float a[3] = {tile.row(albedo, 0, y)[x], tile.row(albedo, 1, y)[x], tile.row(albedo, 2, y)[x]};
-        float by[3];
-        rule.divisor(a, by);
-        for (int c = 0; c < 3; ++c) tile.row(irradiance, c, y)[x] = tile.row(image, c, y)[x] / by[c];
-      }
+      quell::demodulate_row(rule, tile.x0, tile.x1, quell::rgb(tile, image, y).data(),
+                            quell::rgb(tile, albedo, y).data(), quell::rgb(tile, irradiance, y).data());
   }
 };
 

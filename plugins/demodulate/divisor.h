@@ -1,41 +1,35 @@
-// What radiance is divided by, and irradiance multiplied by: one rule for demodulate and modulate, so that they are
-// inverses.
-#pragma once
+// Divisors of a vector of pixels. For *_kernels.cpp only.
 
-#include <quell/describe.h>
+#include <quell/simd.h>
 
-#include <algorithm>
-#include <cstdint>
+#if defined(QUELL_DIVISOR_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef QUELL_DIVISOR_H_
+#undef QUELL_DIVISOR_H_
+#else
+#define QUELL_DIVISOR_H_
+#endif
 
-namespace quell::demodulation {
+#include "demodulate/rule.h"
 
-enum class Mode : std::int32_t { clip, classic };
+QUELL_SIMD_BEGIN
 
 // Below this albedo the usual demodulation takes a surface for black (Falcor's SVGF uses the same number).
-inline constexpr float kBlack = 1e-3f;
+constexpr float kBlack = 1e-3f;
 
-struct Rule {
-  Mode mode = Mode::clip;
-  float floor = 0.1f;
-
-  void describe(Describe& d) {
-    d.param(mode, "mode",
-            "clip: divides by albedo clipped to [floor, 1]. classic: divides by max(albedo, 0.001), and not at all "
-            "where all "
-            "three channels are below 0.001 or one is above 1, which mixes both kinds of light between neighbours.",
-            {"clip", "classic"});
-    d.param(floor, "floor", "Smallest divisor of mode clip.").range(1e-4, 1);
+// What the three channels of radiance are divided by.
+HWY_INLINE void divisors(const demodulation::Rule& rule, const float* const* albedo, int x, V* by) {
+  const V one = all(1.0f);
+  const bool clip = rule.mode == demodulation::Mode::clip;
+  const V floor = all(clip ? rule.floor : kBlack);
+  for (int c = 0; c < 3; ++c) by[c] = hn::Max(load(albedo[c] + x), floor);
+  if (clip) {
+    for (int c = 0; c < 3; ++c) by[c] = hn::Min(by[c], one);
+    return;
   }
+  const V brightest = hn::Max(hn::Max(load(albedo[0] + x), load(albedo[1] + x)), load(albedo[2] + x));
+  const M plain = hn::Or(brightest<floor, brightest> one);
+  for (int c = 0; c < 3; ++c) by[c] = hn::IfThenElse(plain, one, by[c]);
+}
 
-  void divisor(const float albedo[3], float divisor[3]) const {
-    if (mode == Mode::clip) {
-      for (int c = 0; c < 3; ++c) divisor[c] = std::min(std::max(albedo[c], floor), 1.0f);
-      return;
-    }
-    const float brightest = std::max({albedo[0], albedo[1], albedo[2]});
-    const bool plain = brightest < kBlack || brightest > 1;
-    for (int c = 0; c < 3; ++c) divisor[c] = plain ? 1.0f : std::max(albedo[c], kBlack);
-  }
-};
-
-}  // namespace quell::demodulation
+QUELL_SIMD_END
+#endif

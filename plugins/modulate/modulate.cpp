@@ -1,7 +1,8 @@
 // Multiplies albedo back into filtered light, and adds what no kernel has seen.
 #include <quell/node.h>
 
-#include "demodulate/divisor.h"
+#include "demodulate/rgb.h"
+#include "modulate/modulate_kernels.h"
 
 namespace {
 
@@ -24,17 +25,12 @@ struct Modulate {
   }
 
   void run(const quell::Tile& tile) const {
-    const bool has_emission = tile.has(emission);
-    for (int y = tile.y0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x) {
-        const float a[3] = {tile.row(albedo, 0, y)[x], tile.row(albedo, 1, y)[x], tile.row(albedo, 2, y)[x]};
-        float by[3];
-        rule.divisor(a, by);
-        for (int c = 0; c < 3; ++c) {
-          const float reflected = tile.row(image, c, y)[x] * by[c];
-          tile.row(radiance, c, y)[x] = has_emission ? reflected + tile.row(emission, c, y)[x] : reflected;
-        }
-      }
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      std::array<const float*, 3> more{};
+      if (tile.has(emission)) more = quell::rgb(tile, emission, y);
+      quell::modulate_row(rule, tile.x0, tile.x1, quell::rgb(tile, image, y).data(), quell::rgb(tile, albedo, y).data(),
+                          more.data(), quell::rgb(tile, radiance, y).data());
+    }
   }
 };
 

@@ -1,7 +1,7 @@
 // Mixes the current frame into its reprojected history: an exponential moving average that starts as a plain mean.
 #include <quell/node.h>
 
-#include <algorithm>
+#include "temporal_blend/temporal_blend_kernels.h"
 
 namespace {
 
@@ -27,20 +27,10 @@ struct TemporalBlend {
   }
 
   void run(const quell::Tile& tile) const {
-    const int channels = tile[current].channels;
-    for (int y = tile.y0; y < tile.y1; ++y) {
-      const float* n = tile.row(count, 0, y);
-      for (int c = 0; c < channels; ++c) {
-        const float* now = tile.row(current, c, y);
-        const float* then = tile.row(history, c, y);
-        float* out = tile.row(blended, c, y);
-        for (int x = tile.x0; x < tile.x1; ++x) {
-          const float a = warm_up ? std::max(alpha, 1.0f / std::max(n[x], 1.0f)) : alpha;
-          // As a step away from history, so that equal frames stay what they are to the bit.
-          out[x] = n[x] > 1 && a < 1 ? then[x] + a * (now[x] - then[x]) : now[x];
-        }
-      }
-    }
+    for (int c = 0; c < tile[current].channels; ++c)
+      for (int y = tile.y0; y < tile.y1; ++y)
+        quell::blend_row({alpha, warm_up}, tile.x0, tile.x1, tile.row(current, c, y), tile.row(history, c, y),
+                         tile.row(count, 0, y), tile.row(blended, c, y));
   }
 };
 

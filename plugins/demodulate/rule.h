@@ -1,0 +1,27 @@
+// What radiance is divided by, and irradiance multiplied by: one rule for demodulate and modulate, so that they are
+// inverses.
+#pragma once
+
+#include <quell/describe.h>
+
+#include <cstdint>
+
+namespace quell::demodulation {
+
+enum class Mode : std::int32_t { clip, classic };
+
+struct Rule {
+  Mode mode = Mode::clip;
+  float floor = 0.1f;
+
+  void describe(Describe& d) {
+    d.param(mode, "mode",
+            "clip: divides by albedo clipped to [floor, 1]. classic: divides by max(albedo, 0.001), and not at all "
+            "where all "
+            "three channels are below 0.001 or one is above 1, which mixes both kinds of light between neighbours.",
+            {"clip", "classic"});
+    d.param(floor, "floor", "Smallest divisor of mode clip.").range(1e-4, 1);
+  }
+};
+
+}  // namespace quell::demodulation
