@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <string>
 
+#include "tests/support/each_target.h"
 #include "tests/support/run_node.h"
 
 namespace {
 
 using quell::Image;
 using quell::test::constant_image;
+using quell::test::for_each_target;
 using quell::test::Node;
 using quell::test::noise_image;
 
@@ -37,46 +39,52 @@ double divisor(const std::string& mode, double floor, const Image& albedo, int c
 
 class Demodulation : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(Demodulation, divides_by_the_clipped_albedo) {
-  const auto color = noise_image(17, 3, 3, 1, 0.0f, 20.0f), albedo = albedos(17, 3);
-  const auto out = Node("demodulate")
-                       .set("mode", GetParam())
-                       .set("floor", 0.2f)
-                       .in("image", color)
-                       .in("albedo", albedo)
-                       .run("image");
-  for (int c = 0; c < 3; ++c)
-    for (int y = 0; y < 3; ++y)
-      for (int x = 0; x < 17; ++x) {
-        const double expected = color.at(c, x, y) / divisor(GetParam(), double(0.2f), albedo, c, x, y);
-        EXPECT_NEAR(out.at(c, x, y), expected, 1e-7 * expected);
-      }
+TEST_P(Demodulation, DividesByTheClippedAlbedo) {
+  for_each_target([&] {
+    const auto color = noise_image(17, 3, 3, 1, 0.0f, 20.0f), albedo = albedos(17, 3);
+    const auto out = Node("demodulate")
+                         .set("mode", GetParam())
+                         .set("floor", 0.2f)
+                         .in("image", color)
+                         .in("albedo", albedo)
+                         .run("image");
+    for (int c = 0; c < 3; ++c)
+      for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 17; ++x) {
+          const double expected = color.at(c, x, y) / divisor(GetParam(), double(0.2f), albedo, c, x, y);
+          EXPECT_NEAR(out.at(c, x, y), expected, 1e-7 * expected);
+        }
+  });
 }
 
-TEST_P(Demodulation, modulate_is_the_inverse) {
-  const auto color = noise_image(17, 3, 3, 2, 0.0f, 20.0f), albedo = albedos(17, 3), aside = noise_image(17, 3, 3, 3);
-  const auto light = Node("demodulate").set("mode", GetParam()).in("image", color).in("albedo", albedo).run("image");
-  const auto back = Node("modulate").set("mode", GetParam()).in("image", light).in("albedo", albedo).run("image");
-  const auto more = Node("modulate")
-                        .set("mode", GetParam())
-                        .in("image", light)
-                        .in("albedo", albedo)
-                        .in("emission", aside)
-                        .run("image");
-  for (int c = 0; c < 3; ++c)
-    for (int y = 0; y < 3; ++y)
-      for (int x = 0; x < 17; ++x) {
-        const double v = color.at(c, x, y), sum = v + aside.at(c, x, y);
-        EXPECT_NEAR(back.at(c, x, y), v, 1e-6 * v);
-        EXPECT_NEAR(more.at(c, x, y), sum, 1e-6 * sum);
-      }
+TEST_P(Demodulation, ModulateIsTheInverse) {
+  for_each_target([&] {
+    const auto color = noise_image(17, 3, 3, 2, 0.0f, 20.0f), albedo = albedos(17, 3), aside = noise_image(17, 3, 3, 3);
+    const auto light = Node("demodulate").set("mode", GetParam()).in("image", color).in("albedo", albedo).run("image");
+    const auto back = Node("modulate").set("mode", GetParam()).in("image", light).in("albedo", albedo).run("image");
+    const auto more = Node("modulate")
+                          .set("mode", GetParam())
+                          .in("image", light)
+                          .in("albedo", albedo)
+                          .in("emission", aside)
+                          .run("image");
+    for (int c = 0; c < 3; ++c)
+      for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 17; ++x) {
+          const double v = color.at(c, x, y), sum = v + aside.at(c, x, y);
+          EXPECT_NEAR(back.at(c, x, y), v, 1e-6 * v);
+          EXPECT_NEAR(more.at(c, x, y), sum, 1e-6 * sum);
+        }
+  });
 }
 
-TEST_P(Demodulation, light_on_black_survives) {
-  const auto color = constant_image(3, 1, 3, 1.0f), albedo = constant_image(3, 1, 3, 0.0f);
-  const auto light = Node("demodulate").set("mode", GetParam()).in("image", color).in("albedo", albedo).run("image");
-  const auto back = Node("modulate").set("mode", GetParam()).in("image", light).in("albedo", albedo).run("image");
-  EXPECT_FLOAT_EQ(back.at(1, 1, 0), 1.0f);
+TEST_P(Demodulation, LightOnBlackSurvives) {
+  for_each_target([&] {
+    const auto color = constant_image(3, 1, 3, 1.0f), albedo = constant_image(3, 1, 3, 0.0f);
+    const auto light = Node("demodulate").set("mode", GetParam()).in("image", color).in("albedo", albedo).run("image");
+    const auto back = Node("modulate").set("mode", GetParam()).in("image", light).in("albedo", albedo).run("image");
+    EXPECT_FLOAT_EQ(back.at(1, 1, 0), 1.0f);
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(modes, Demodulation, ::testing::Values("clip", "classic"));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "tests/support/each_target.h"
 #include "tests/support/run_node.h"
 
 namespace {
@@ -14,6 +15,7 @@ using quell::Image;
 using quell::kFar;
 using quell::kNoId;
 using quell::test::constant_image;
+using quell::test::for_each_target;
 using quell::test::Node;
 using quell::test::noise_image;
 using quell::test::normal_image;
@@ -72,103 +74,111 @@ Node disocclusion(const Frame& now, const Frame& then, const Image& motion) {
                        .in("id_before", then.id));
 }
 
-TEST(disocclusion, follows_its_rules) {
-  const int width = 37, height = 19;
-  const Frame now(width, height, 0), then(width, height, 3);
-  // Quarters of a pixel, so that positions and weights are the same in float and double.
-  auto motion = noise_image(width, height, 2, 11, -12, 12);
-  for (int c = 0; c < 2; ++c)
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) motion.at(c, x, y) = std::round(motion.at(c, x, y)) / 4;
-
-  for (const bool nearest : {false, true})
-    for (const bool fallback : {true, false}) {
-      const auto taps = disocclusion(now, then, motion)
-                            .set("mode", nearest ? "nearest" : "bilinear")
-                            .set("fallback", fallback)
-                            .run("taps");
-      int partial = 0, whole = 0, only_around = 0;
+TEST(Disocclusion, FollowsItsRules) {
+  for_each_target([&] {
+    const int width = 37, height = 19;
+    const Frame now(width, height, 0), then(width, height, 3);
+    // Quarters of a pixel, so that positions and weights are the same in float and double.
+    auto motion = noise_image(width, height, 2, 11, -12, 12);
+    for (int c = 0; c < 2; ++c)
       for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-          SCOPED_TRACE(testing::Message()
-                       << x << ',' << y << (nearest ? " nearest" : "") << (fallback ? " fallback" : ""));
-          // The continuous position of the pixel's centre, one frame earlier.
-          const double sx = x + 0.5 + motion.at(0, x, y), sy = y + 0.5 + motion.at(1, x, y);
-          const bool inside = sx >= 0 && sy >= 0 && sx < width && sy < height;
-          const int nx = int(std::floor(sx)), ny = int(std::floor(sy));
-          const int bx = int(std::floor(sx - 0.5)), by = int(std::floor(sy - 0.5));
-          double weight[4] = {}, sum = 0;
-          std::uint32_t mask = 0, count = 0;
-          if (inside) {
-            for (int t = 0; t < 4; ++t) {
-              const int u = bx + t % 2, v = by + t / 2;
-              const double w =
-                  nearest ? double(u == nx && v == ny) : (1 - std::abs(sx - 0.5 - u)) * (1 - std::abs(sy - 0.5 - v));
-              if (agree(now, x, y, then, u, v, {})) sum += weight[t] = w;
+        for (int x = 0; x < width; ++x) motion.at(c, x, y) = std::round(motion.at(c, x, y)) / 4;
+
+    for (const bool nearest : {false, true})
+      for (const bool fallback : {true, false}) {
+        const auto taps = disocclusion(now, then, motion)
+                              .set("mode", nearest ? "nearest" : "bilinear")
+                              .set("fallback", fallback)
+                              .run("taps");
+        int partial = 0, whole = 0, only_around = 0;
+        for (int y = 0; y < height; ++y)
+          for (int x = 0; x < width; ++x) {
+            SCOPED_TRACE(testing::Message()
+                         << x << ',' << y << (nearest ? " nearest" : "") << (fallback ? " fallback" : ""));
+            // The continuous position of the pixel's centre, one frame earlier.
+            const double sx = x + 0.5 + motion.at(0, x, y), sy = y + 0.5 + motion.at(1, x, y);
+            const bool inside = sx >= 0 && sy >= 0 && sx < width && sy < height;
+            const int nx = int(std::floor(sx)), ny = int(std::floor(sy));
+            const int bx = int(std::floor(sx - 0.5)), by = int(std::floor(sy - 0.5));
+            double weight[4] = {}, sum = 0;
+            std::uint32_t mask = 0, count = 0;
+            if (inside) {
+              for (int t = 0; t < 4; ++t) {
+                const int u = bx + t % 2, v = by + t / 2;
+                const double w =
+                    nearest ? double(u == nx && v == ny) : (1 - std::abs(sx - 0.5 - u)) * (1 - std::abs(sy - 0.5 - v));
+                if (agree(now, x, y, then, u, v, {})) sum += weight[t] = w;
+              }
+              for (int t = 0; t < 9; ++t)
+                if (agree(now, x, y, then, nx + t % 3 - 1, ny + t / 3 - 1, {})) mask |= 1u << t;
+              for (int t = 0; t < 16; ++t) count += agree(now, x, y, then, bx - 1 + t % 4, by - 1 + t / 4, {});
+              if (count == 16) mask |= kWhole;
             }
-            for (int t = 0; t < 9; ++t)
-              if (agree(now, x, y, then, nx + t % 3 - 1, ny + t / 3 - 1, {})) mask |= 1u << t;
-            for (int t = 0; t < 16; ++t) count += agree(now, x, y, then, bx - 1 + t % 4, by - 1 + t / 4, {});
-            if (count == 16) mask |= kWhole;
+            if (sum < 0.01 && !fallback) mask = 0;
+            for (int t = 0; t < 4; ++t) EXPECT_NEAR(taps.at(t, x, y), sum < 0.01 ? 0 : weight[t] / sum, 1e-6);
+            EXPECT_EQ(taps.bits(4, y)[x], mask);
+            partial += sum >= 0.01 && sum < 0.99, whole += count == 16, only_around += sum < 0.01 && mask != 0;
           }
-          if (sum < 0.01 && !fallback) mask = 0;
-          for (int t = 0; t < 4; ++t) EXPECT_NEAR(taps.at(t, x, y), sum < 0.01 ? 0 : weight[t] / sum, 1e-6);
-          EXPECT_EQ(taps.bits(4, y)[x], mask);
-          partial += sum >= 0.01 && sum < 0.99, whole += count == 16, only_around += sum < 0.01 && mask != 0;
+        EXPECT_GT(whole, 5);
+        if (!nearest) {
+          EXPECT_GT(partial, 5);
         }
-      EXPECT_GT(whole, 5);
-      if (!nearest) {
-        EXPECT_GT(partial, 5);
+        if (fallback) {
+          EXPECT_GT(only_around, 5);
+        }
       }
-      if (fallback) {
-        EXPECT_GT(only_around, 5);
+  });
+}
+
+TEST(Disocclusion, WithoutMotionAndChangeIsCertainEverywhere) {
+  for_each_target([&] {
+    const Frame frame(17, 9, 0);
+    const auto taps = disocclusion(frame, frame, constant_image(17, 9, 2, 0)).run("taps");
+    for (int y = 0; y < 9; ++y)
+      for (int x = 0; x < 17; ++x) {
+        EXPECT_EQ(taps.at(0, x, y), 1);
+        for (int t = 1; t < 4; ++t) EXPECT_EQ(taps.at(t, x, y), 0);
       }
-    }
+  });
 }
 
-TEST(disocclusion, without_motion_and_change_is_certain_everywhere) {
-  const Frame frame(17, 9, 0);
-  const auto taps = disocclusion(frame, frame, constant_image(17, 9, 2, 0)).run("taps");
-  for (int y = 0; y < 9; ++y)
-    for (int x = 0; x < 17; ++x) {
-      EXPECT_EQ(taps.at(0, x, y), 1);
-      for (int t = 1; t < 4; ++t) EXPECT_EQ(taps.at(t, x, y), 0);
-    }
+TEST(Disocclusion, TestsDepthWithinSlopeAndFloor) {
+  for_each_target([&] {
+    const auto motion = constant_image(3, 1, 2, 0), now = constant_image(3, 1, 1, 4);
+    auto slope = constant_image(3, 1, 2, 0.0f), then = constant_image(3, 1, 1, 4.5f);
+    slope.at(0, 1, 0) = -0.05f;
+    then.at(0, 2, 0) = 4.3f;
+    const auto taps = Node("disocclusion")
+                          .in("motion", motion)
+                          .in("slope", slope)
+                          .in("depth", now)
+                          .in("depth_before", then)
+                          .set("fallback", false)
+                          .run("taps");
+    EXPECT_EQ(taps.at(0, 0, 0), 0) << "0.5 apart, 0.4 allowed";
+    EXPECT_EQ(taps.at(0, 1, 0), 1) << "0.5 apart, 0.9 allowed";
+    EXPECT_EQ(taps.at(0, 2, 0), 1) << "0.3 apart, 0.4 allowed";
+  });
 }
 
-TEST(disocclusion, tests_depth_within_slope_and_floor) {
-  const auto motion = constant_image(3, 1, 2, 0), now = constant_image(3, 1, 1, 4);
-  auto slope = constant_image(3, 1, 2, 0.0f), then = constant_image(3, 1, 1, 4.5f);
-  slope.at(0, 1, 0) = -0.05f;
-  then.at(0, 2, 0) = 4.3f;
-  const auto taps = Node("disocclusion")
-                        .in("motion", motion)
-                        .in("slope", slope)
-                        .in("depth", now)
-                        .in("depth_before", then)
-                        .set("fallback", false)
-                        .run("taps");
-  EXPECT_EQ(taps.at(0, 0, 0), 0) << "0.5 apart, 0.4 allowed";
-  EXPECT_EQ(taps.at(0, 1, 0), 1) << "0.5 apart, 0.9 allowed";
-  EXPECT_EQ(taps.at(0, 2, 0), 1) << "0.3 apart, 0.4 allowed";
+TEST(Disocclusion, WithoutHistoryOrInsideIsNothing) {
+  for_each_target([&] {
+    const Frame frame(9, 5, 0);
+    const auto still = constant_image(9, 5, 2, 0), far = constant_image(9, 5, 2, 1e6f),
+               wild = constant_image(9, 5, 2, NAN);
+    const auto first =
+        Node("disocclusion").in("motion", still).in("id", frame.id).in_missing("id_before", frame.id).run("taps");
+    const auto out = disocclusion(frame, frame, far).run("taps"), nan = disocclusion(frame, frame, wild).run("taps");
+    for (const auto* taps : {&first, &out, &nan})
+      for (int y = 0; y < 5; ++y)
+        for (int x = 0; x < 9; ++x) {
+          for (int t = 0; t < 4; ++t) EXPECT_EQ(taps->at(t, x, y), 0);
+          EXPECT_EQ(taps->bits(4, y)[x], 0u);
+        }
+  });
 }
 
-TEST(disocclusion, without_history_or_inside_is_nothing) {
-  const Frame frame(9, 5, 0);
-  const auto still = constant_image(9, 5, 2, 0), far = constant_image(9, 5, 2, 1e6f),
-             wild = constant_image(9, 5, 2, NAN);
-  const auto first =
-      Node("disocclusion").in("motion", still).in("id", frame.id).in_missing("id_before", frame.id).run("taps");
-  const auto out = disocclusion(frame, frame, far).run("taps"), nan = disocclusion(frame, frame, wild).run("taps");
-  for (const auto* taps : {&first, &out, &nan})
-    for (int y = 0; y < 5; ++y)
-      for (int x = 0; x < 9; ++x) {
-        for (int t = 0; t < 4; ++t) EXPECT_EQ(taps->at(t, x, y), 0);
-        EXPECT_EQ(taps->bits(4, y)[x], 0u);
-      }
-}
-
-TEST(disocclusion, wants_guides_in_pairs) {
+TEST(Disocclusion, WantsGuidesInPairs) {
   const auto motion = constant_image(3, 3, 2, 0), depth = constant_image(3, 3, 1, 1);
   try {
     Node("disocclusion").in("motion", motion).in("depth", depth).run("taps");

@@ -8,7 +8,7 @@ namespace {
 using quell::test::Node;
 using quell::test::noise_image;
 
-TEST(luminance_moments, are_luminance_and_its_square) {
+TEST(LuminanceMoments, AreLuminanceAndItsSquare) {
   const auto color = noise_image(17, 3, 3, 1, 0.0f, 30.0f);
   const auto moments = Node("luminance_moments").in("image", color).run("moments");
   ASSERT_EQ(moments.channels(), 2);

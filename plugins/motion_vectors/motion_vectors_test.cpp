@@ -101,7 +101,7 @@ struct Scene {
   }
 };
 
-TEST(motion_vectors, goes_back_with_object_and_camera) {
+TEST(MotionVectors, GoesBackWithObjectAndCamera) {
   const Scene s;
   const auto now = table(s.now), then = table(s.then), objects = table(s.objects_now), before = table(s.objects_then);
   s.expect(Node("motion_vectors")
@@ -122,7 +122,7 @@ TEST(motion_vectors, goes_back_with_object_and_camera) {
                .run("motion"));
 }
 
-TEST(motion_vectors, tells_misses_by_depth_or_position_alone) {
+TEST(MotionVectors, TellsMissesByDepthOrPositionAlone) {
   Scene s;
   s.objects_now = s.objects_then = {dmat4(1), dmat4(1), dmat4(1)};
   const auto now = table(s.now), then = table(s.then);
@@ -130,7 +130,7 @@ TEST(motion_vectors, tells_misses_by_depth_or_position_alone) {
   s.expect(Node("motion_vectors").in("position", s.position).in("camera", now).in("camera_before", then).run("motion"));
 }
 
-TEST(motion_vectors, at_rest_is_zero_to_the_bit) {
+TEST(MotionVectors, AtRestIsZeroToTheBit) {
   const Scene s;
   const auto now = table(s.now), objects = table(s.objects_now);
   const auto motion = Node("motion_vectors")
@@ -145,7 +145,7 @@ TEST(motion_vectors, at_rest_is_zero_to_the_bit) {
     for (int x = 0; x < kWidth; ++x) EXPECT_EQ(motion.at(0, x, y), 0);
 }
 
-TEST(motion_vectors, leads_out_of_the_image_where_nothing_is_known) {
+TEST(MotionVectors, LeadsOutOfTheImageWhereNothingIsKnown) {
   Scene s;
   const auto now = table(s.now), then = table(s.then), objects = table(s.objects_now);
   const auto fewer = table({s.objects_then[0]});
@@ -176,7 +176,7 @@ TEST(motion_vectors, leads_out_of_the_image_where_nothing_is_known) {
   EXPECT_EQ(behind.at(0, 16, 8), kNoMotion);
 }
 
-TEST(motion_vectors, says_what_is_missing) {
+TEST(MotionVectors, SaysWhatIsMissing) {
   const Scene s;
   const auto now = table(s.now), objects = table(s.objects_now);
   const auto error = [](Node& node) -> std::string {
@@ -242,7 +242,7 @@ class Games202Box : public ::testing::Test {
   std::string folder_;
 };
 
-TEST_F(Games202Box, moves_as_its_matrices_say) {
+TEST_F(Games202Box, MovesAsItsMatricesSay) {
   const auto position = read("position_1.exr", 3), depth = read("depth_1.exr", 1);
   const auto id = ids(1), id_before = ids(0);
   const auto [objects, view] = matrices(1);

@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/each_target.h"
 #include "tests/support/run_node.h"
 
 namespace {
 
 using quell::Image;
 using quell::test::constant_image;
+using quell::test::for_each_target;
 using quell::test::Node;
 using quell::test::noise_image;
 
@@ -49,42 +51,47 @@ struct Case {
 
 class OutlierClamp : public ::testing::TestWithParam<Case> {};
 
-TEST_P(OutlierClamp, by_channel_is_its_formula) {
-  const auto [width, height, radius, k, exclude] = GetParam();
-  const auto image = with_fireflies(width, height);
-  const auto out = Node("outlier_clamp")
-                       .set("radius", radius)
-                       .set("k", k)
-                       .set("exclude_center", exclude)
-                       .in("image", image)
-                       .run("image");
-  for (int c = 0; c < 3; ++c)
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const double expected =
-            clamped(image, x, y, radius, k, exclude, [&](int u, int v) { return double(image.at(c, u, v)); });
-        EXPECT_NEAR(out.at(c, x, y), expected, 1e-6 * std::max(expected, 1.0)) << c << ' ' << x << ',' << y;
-      }
+TEST_P(OutlierClamp, ByChannelIsItsFormula) {
+  for_each_target([&] {
+    const auto [width, height, radius, k, exclude] = GetParam();
+    const auto image = with_fireflies(width, height);
+    const auto out = Node("outlier_clamp")
+                         .set("radius", radius)
+                         .set("k", k)
+                         .set("exclude_center", exclude)
+                         .in("image", image)
+                         .run("image");
+    for (int c = 0; c < 3; ++c)
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+          const double expected =
+              clamped(image, x, y, radius, k, exclude, [&](int u, int v) { return double(image.at(c, u, v)); });
+          EXPECT_NEAR(out.at(c, x, y), expected, 1e-6 * std::max(expected, 1.0)) << c << ' ' << x << ',' << y;
+        }
+  });
 }
 
-TEST_P(OutlierClamp, by_luminance_keeps_the_hue) {
-  const auto [width, height, radius, k, exclude] = GetParam();
-  const auto image = with_fireflies(width, height);
-  const auto out = Node("outlier_clamp")
-                       .set("mode", "luminance")
-                       .set("radius", radius)
-                       .set("k", k)
-                       .set("exclude_center", exclude)
-                       .in("image", image)
-                       .run("image");
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const double to = clamped(image, x, y, radius, k, exclude, [&](int u, int v) { return luminance(image, u, v); });
-      for (int c = 0; c < 3; ++c) {
-        const double expected = image.at(c, x, y) * to / luminance(image, x, y);
-        EXPECT_NEAR(out.at(c, x, y), expected, 3e-6 * std::max(expected, 1.0)) << c << ' ' << x << ',' << y;
+TEST_P(OutlierClamp, ByLuminanceKeepsTheHue) {
+  for_each_target([&] {
+    const auto [width, height, radius, k, exclude] = GetParam();
+    const auto image = with_fireflies(width, height);
+    const auto out = Node("outlier_clamp")
+                         .set("mode", "luminance")
+                         .set("radius", radius)
+                         .set("k", k)
+                         .set("exclude_center", exclude)
+                         .in("image", image)
+                         .run("image");
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const double to =
+            clamped(image, x, y, radius, k, exclude, [&](int u, int v) { return luminance(image, u, v); });
+        for (int c = 0; c < 3; ++c) {
+          const double expected = image.at(c, x, y) * to / luminance(image, x, y);
+          EXPECT_NEAR(out.at(c, x, y), expected, 3e-6 * std::max(expected, 1.0)) << c << ' ' << x << ',' << y;
+        }
       }
-    }
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(sizes, OutlierClamp,
@@ -93,29 +100,34 @@ INSTANTIATE_TEST_SUITE_P(sizes, OutlierClamp,
                                            Case{9, 1, 3, 1, false}, Case{2, 1, 3, 1, true}, Case{1, 1, 3, 1, true},
                                            Case{1, 1, 3, 1, false}));
 
-TEST(outlier_clamp, finds_what_statistics_with_the_centre_cannot) {
-  // One outlier among 49 equal values lies at √48 = 6.93 sigma of them all, however large it is.
-  auto image = constant_image(15, 15, 3, 1.0f);
-  for (int c = 0; c < 3; ++c) image.at(c, 7, 7) = 1e6f;
-  for (const auto& [k, exclude, removed] : {std::tuple{7.0f, false, false}, {6.8f, false, true}, {7.0f, true, true}}) {
-    const auto out = Node("outlier_clamp").set("k", k).set("exclude_center", exclude).in("image", image).run("image");
-    EXPECT_EQ(out.at(0, 7, 7) < 1e6f, removed) << k << ' ' << exclude;
-    if (exclude) {
-      // What the least spread, 0.1 % of the mean, allows.
-      EXPECT_NEAR(out.at(0, 7, 7), 1.007, 1e-5);
+TEST(OutlierClampProperty, FindsWhatStatisticsWithTheCentreCannot) {
+  for_each_target([&] {
+    // One outlier among 49 equal values lies at √48 = 6.93 sigma of them all, however large it is.
+    auto image = constant_image(15, 15, 3, 1.0f);
+    for (int c = 0; c < 3; ++c) image.at(c, 7, 7) = 1e6f;
+    for (const auto& [k, exclude, removed] :
+         {std::tuple{7.0f, false, false}, {6.8f, false, true}, {7.0f, true, true}}) {
+      const auto out = Node("outlier_clamp").set("k", k).set("exclude_center", exclude).in("image", image).run("image");
+      EXPECT_EQ(out.at(0, 7, 7) < 1e6f, removed) << k << ' ' << exclude;
+      if (exclude) {
+        // What the least spread, 0.1 % of the mean, allows.
+        EXPECT_NEAR(out.at(0, 7, 7), 1.007, 1e-5);
+      }
     }
-  }
+  });
 }
 
-TEST(outlier_clamp, keeps_what_is_constant) {
-  const auto image = constant_image(33, 9, 3, 0.3f);
-  for (const char* mode : {"channel", "luminance"})
-    for (const bool exclude : {true, false}) {
-      const auto out =
-          Node("outlier_clamp").set("mode", mode).set("exclude_center", exclude).in("image", image).run("image");
-      for (int y = 0; y < 9; ++y)
-        for (int x = 0; x < 33; ++x) EXPECT_FLOAT_EQ(out.at(2, x, y), 0.3f) << mode << exclude << x << ',' << y;
-    }
+TEST(OutlierClampProperty, KeepsWhatIsConstant) {
+  for_each_target([&] {
+    const auto image = constant_image(33, 9, 3, 0.3f);
+    for (const char* mode : {"channel", "luminance"})
+      for (const bool exclude : {true, false}) {
+        const auto out =
+            Node("outlier_clamp").set("mode", mode).set("exclude_center", exclude).in("image", image).run("image");
+        for (int y = 0; y < 9; ++y)
+          for (int x = 0; x < 33; ++x) EXPECT_FLOAT_EQ(out.at(2, x, y), 0.3f) << mode << exclude << x << ',' << y;
+      }
+  });
 }
 
 }  // namespace

@@ -3,12 +3,14 @@
 
 #include <cmath>
 
+#include "tests/support/each_target.h"
 #include "tests/support/run_node.h"
 
 namespace {
 
 using quell::Image;
 using quell::test::constant_image;
+using quell::test::for_each_target;
 using quell::test::Node;
 using quell::test::noise_image;
 
@@ -28,68 +30,76 @@ struct Guides {
   }
 };
 
-TEST(reproject, averages_the_valid_taps) {
-  const int width = 37, height = 19;
-  Guides s(width, height, 4);
-  const auto before = noise_image(width, height, 3, 9);
-  const auto out = Node("reproject").in("image", before).in("motion", s.motion).in("taps", s.taps).run("image");
-  int bilinear = 0, around = 0, none = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const float px = float(x) + s.motion.at(0, x, y), py = float(y) + s.motion.at(1, x, y);
-      const bool inside = px >= -0.5f && py >= -0.5f && px < float(width) - 0.5f && py < float(height) - 0.5f;
-      const int bx = int(std::floor(px)), by = int(std::floor(py));
-      const int nx = int(std::floor(px + 0.5f)), ny = int(std::floor(py + 0.5f));
-      const auto valid = [&](int u, int v) {
-        return u >= 0 && v >= 0 && u < width && v < height && s.id_before.bits(0, v)[u] == s.id.bits(0, y)[x];
-      };
-      for (int c = 0; c < 3; ++c) {
-        double sum = 0, total = 0;
-        if (inside)
-          for (int t = 0; t < 4; ++t) {
-            const int u = bx + t % 2, v = by + t / 2;
-            const double w = (1 - std::abs(double(px) - u)) * (1 - std::abs(double(py) - v));
-            if (valid(u, v)) sum += w * before.at(c, u, v), total += w;
+TEST(Reproject, AveragesTheValidTaps) {
+  for_each_target([&] {
+    const int width = 37, height = 19;
+    Guides s(width, height, 4);
+    const auto before = noise_image(width, height, 3, 9);
+    const auto out = Node("reproject").in("image", before).in("motion", s.motion).in("taps", s.taps).run("image");
+    int bilinear = 0, around = 0, none = 0;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const float px = float(x) + s.motion.at(0, x, y), py = float(y) + s.motion.at(1, x, y);
+        const bool inside = px >= -0.5f && py >= -0.5f && px < float(width) - 0.5f && py < float(height) - 0.5f;
+        const int bx = int(std::floor(px)), by = int(std::floor(py));
+        const int nx = int(std::floor(px + 0.5f)), ny = int(std::floor(py + 0.5f));
+        const auto valid = [&](int u, int v) {
+          return u >= 0 && v >= 0 && u < width && v < height && s.id_before.bits(0, v)[u] == s.id.bits(0, y)[x];
+        };
+        for (int c = 0; c < 3; ++c) {
+          double sum = 0, total = 0;
+          if (inside)
+            for (int t = 0; t < 4; ++t) {
+              const int u = bx + t % 2, v = by + t / 2;
+              const double w = (1 - std::abs(double(px) - u)) * (1 - std::abs(double(py) - v));
+              if (valid(u, v)) sum += w * before.at(c, u, v), total += w;
+            }
+          bool fell_back = false;
+          if (inside && total < 0.01) {
+            sum = total = 0;
+            for (int t = 0; t < 9; ++t)
+              if (valid(nx + t % 3 - 1, ny + t / 3 - 1)) sum += before.at(c, nx + t % 3 - 1, ny + t / 3 - 1), ++total;
+            fell_back = true;
           }
-        bool fell_back = false;
-        if (inside && total < 0.01) {
-          sum = total = 0;
-          for (int t = 0; t < 9; ++t)
-            if (valid(nx + t % 3 - 1, ny + t / 3 - 1)) sum += before.at(c, nx + t % 3 - 1, ny + t / 3 - 1), ++total;
-          fell_back = true;
+          EXPECT_NEAR(out.at(c, x, y), total > 0 ? sum / total : 0, 1e-5) << x << ',' << y;
+          bilinear += total > 0 && !fell_back, around += total > 0 && fell_back, none += total == 0;
         }
-        EXPECT_NEAR(out.at(c, x, y), total > 0 ? sum / total : 0, 1e-5) << x << ',' << y;
-        bilinear += total > 0 && !fell_back, around += total > 0 && fell_back, none += total == 0;
       }
-    }
-  EXPECT_GT(bilinear, 100);
-  EXPECT_GT(around, 10);
-  EXPECT_GT(none, 10);
+    EXPECT_GT(bilinear, 100);
+    EXPECT_GT(around, 10);
+    EXPECT_GT(none, 10);
+  });
 }
 
-TEST(reproject, without_motion_is_the_identity_to_the_bit) {
-  const auto motion = constant_image(17, 5, 2, 0), before = noise_image(17, 5, 4, 2, -1e6f, 1e6f);
-  const auto taps = Node("disocclusion").in("motion", motion).run("taps");
-  const auto out = Node("reproject").in("image", before).in("motion", motion).in("taps", taps).run("image");
-  for (int c = 0; c < 4; ++c)
+TEST(Reproject, WithoutMotionIsTheIdentityToTheBit) {
+  for_each_target([&] {
+    const auto motion = constant_image(17, 5, 2, 0), before = noise_image(17, 5, 4, 2, -1e6f, 1e6f);
+    const auto taps = Node("disocclusion").in("motion", motion).run("taps");
+    const auto out = Node("reproject").in("image", before).in("motion", motion).in("taps", taps).run("image");
+    for (int c = 0; c < 4; ++c)
+      for (int y = 0; y < 5; ++y)
+        for (int x = 0; x < 17; ++x) EXPECT_EQ(out.at(c, x, y), before.at(c, x, y));
+  });
+}
+
+TEST(Reproject, FarOutOfTheImageIsNothing) {
+  for_each_target([&] {
+    const auto motion = constant_image(41, 5, 2, 1e6f), before = noise_image(41, 5, 3, 2);
+    const auto taps = constant_image(41, 5, 5, 0.25f);  // that do not belong to this motion
+    const auto out = Node("reproject").in("image", before).in("motion", motion).in("taps", taps).run("image");
     for (int y = 0; y < 5; ++y)
-      for (int x = 0; x < 17; ++x) EXPECT_EQ(out.at(c, x, y), before.at(c, x, y));
+      for (int x = 0; x < 41; ++x) EXPECT_EQ(out.at(0, x, y), 0);
+  });
 }
 
-TEST(reproject, far_out_of_the_image_is_nothing) {
-  const auto motion = constant_image(41, 5, 2, 1e6f), before = noise_image(41, 5, 3, 2);
-  const auto taps = constant_image(41, 5, 5, 0.25f);  // that do not belong to this motion
-  const auto out = Node("reproject").in("image", before).in("motion", motion).in("taps", taps).run("image");
-  for (int y = 0; y < 5; ++y)
-    for (int x = 0; x < 41; ++x) EXPECT_EQ(out.at(0, x, y), 0);
-}
-
-TEST(reproject, keeps_what_is_constant) {
-  Guides s(23, 11, 2);
-  const auto before = constant_image(23, 11, 1, 0.7f);
-  const auto out = Node("reproject").in("image", before).in("motion", s.motion).in("taps", s.taps).run("image");
-  for (int y = 0; y < 11; ++y)
-    for (int x = 0; x < 23; ++x) EXPECT_NEAR(out.at(0, x, y), out.at(0, x, y) == 0 ? 0 : 0.7f, 3e-7);
+TEST(Reproject, KeepsWhatIsConstant) {
+  for_each_target([&] {
+    Guides s(23, 11, 2);
+    const auto before = constant_image(23, 11, 1, 0.7f);
+    const auto out = Node("reproject").in("image", before).in("motion", s.motion).in("taps", s.taps).run("image");
+    for (int y = 0; y < 11; ++y)
+      for (int x = 0; x < 23; ++x) EXPECT_NEAR(out.at(0, x, y), out.at(0, x, y) == 0 ? 0 : 0.7f, 3e-7);
+  });
 }
 
 }  // namespace
