@@ -132,7 +132,7 @@ class Converter {
     for (const float* p : row) {
       finite = finite && std::isfinite(p[x]);
       nan = nan || std::isnan(p[x]);
-      negative = negative || p[x] < 0.0f;
+      negative = negative || (p[x] < 0.0f && std::isfinite(p[x]));
     }
     const bool color = type_ == QUELL_RADIANCE || type_ == QUELL_ALBEDO;
     if (type_ == QUELL_DEPTH) {
@@ -153,7 +153,7 @@ class Converter {
       if (!color || nan) return;
     }
     if (negative && never_negative(type_)) {
-      ++repairs_.negative;
+      repairs_.negative += finite;  // counted once, as what is worse
       for (float* p : row) p[x] = std::max(p[x], 0.0f);
     }
     if (type_ == QUELL_NORMAL) {

@@ -156,6 +156,10 @@ CameraTable::CameraTable(const std::string& path) : path_(path) {
   }
 }
 
+bool CameraTable::has(std::int64_t frame) const {
+  return std::ranges::find(frames_, frame, &std::pair<std::int64_t, FrameMatrices>::first) != frames_.end();
+}
+
 const FrameMatrices& CameraTable::at(std::int64_t frame) const {
   const auto found = std::ranges::find(frames_, frame, &std::pair<std::int64_t, FrameMatrices>::first);
   if (found == frames_.end()) refuse(path_, fmt::format("has no frame {}", frame));

@@ -35,6 +35,7 @@ FrameMatrices read_games202_matrices(const std::string& path);
 class CameraTable {
  public:
   explicit CameraTable(const std::string& path);
+  bool has(std::int64_t frame) const;
   const FrameMatrices& at(std::int64_t frame) const;
 
  private:
