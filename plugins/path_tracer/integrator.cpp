@@ -56,10 +56,10 @@ Rgb path_radiance(const Moment& m, const Ray& primary, const std::optional<Hit>&
     const Dir from = frame.to_local(viewer);
     const std::uint32_t dimension = std::uint32_t(bounce) * kDimensions;
 
-    receiver = {beside(hit->point.position, normal, normal), normal};
-    if (!bsdf.exact() && !m.lights.empty()) {
-      const LightSample s =
-          m.lights.sample(receiver, sampler.one(dimension + kLight), sampler.pair(dimension + kLightPoint));
+    if (!bsdf.exact()) {
+      receiver =
+          m.lights.receiver(beside(hit->point.position, normal, normal), normal, sampler.one(dimension + kLight));
+      const LightSample s = m.lights.sample(receiver, sampler.pair(dimension + kLightPoint));
       const Dir to = frame.to_local(s.direction);
       if (s.pdf > 0 && to.z > 0 && largest(s.radiance) > 0) {
         const Rgb gain = throughput * bsdf.evaluate(from, to) * s.radiance / (s.pdf + bsdf.pdf(from, to));

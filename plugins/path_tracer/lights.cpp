@@ -52,11 +52,10 @@ Lights::Light Lights::make(const Shape& shape, const Rgb& radiance, bool two_sid
               size,
               size * luminance(radiance),
               std::max(0.25 * glm::dot(half, half), 1e-12),
-              {}};
-  const auto* quad = std::get_if<Quad>(&shape);
-  for (int i = 0; i < 8; ++i)
-    light.corners[i] = quad ? quad->corner + quad->u * double(i & 1) + quad->v * double(i >> 1 & 1)
-                            : glm::mix(b.low, b.high, Vec(i & 1, i >> 1 & 1, i >> 2));
+              b.low,
+              {Vec(2 * half.x, 0, 0), Vec(0, 2 * half.y, 0), Vec(0, 0, 2 * half.z)}};
+  if (const auto* q = std::get_if<Quad>(&shape))
+    light.hull = q->corner, light.edges[0] = q->u, light.edges[1] = q->v, light.edges[2] = Vec(0);
   return light;
 }
 
@@ -72,24 +71,38 @@ Lights::Lights(const Scene& scene, const Geometry& geometry, const Placement& pl
   for (const Quad& portal : scene.portals) lights_.push_back(make(portal, sky, true, true));
 }
 
-double Lights::weight(const Light& light, const Receiver& to) {
-  const Vec away = to.position - light.center;
+double Lights::weight(const Light& light, const Vec& at, const Vec& normal) {
+  // Nothing of the light is seen if all of it lies below the receiver's horizon.
+  double above = glm::dot(light.hull - at, normal);
+  for (const Vec& edge : light.edges) above += std::max(0.0, glm::dot(edge, normal));
+  if (above <= 0) return 0;
+  const Vec away = at - light.center;
   const double reach2 = std::max(glm::dot(away, away), light.radius2), reach = std::sqrt(reach2);
-  double leaving = 1;  // cosine at a flat light
+  double leaving = reach;  // times the cosine at a flat light
   if (!std::holds_alternative<Sphere>(light.shape)) {
     const double side = glm::dot(away, light.normal);
-    leaving = light.two_sided ? std::abs(side) / reach : std::max(0.0, side) / reach;
+    leaving = std::min(reach, light.two_sided ? std::abs(side) : std::max(0.0, side));
   }
-  // Nothing of the light is seen if all of it lies below the receiver's horizon.
-  double above = 0;
-  for (const Vec& corner : light.corners) above = std::max(above, glm::dot(corner - to.position, to.normal));
-  return light.power * std::min(1.0, leaving) * std::min(1.0, above / reach) / reach2;
+  return light.power * leaving * std::min(reach, above) / (reach2 * reach2);
 }
 
-double Lights::total_weight(const Receiver& to) const {
-  double sum = 0;
-  for (const Light& light : lights_) sum += weight(light, to);
-  return sum;
+Receiver Lights::receiver(const Vec& position, const Vec& normal, float choice) const {
+  Receiver r{position, normal};
+  double u = choice;
+  // Weighted choice in one pass; what is left of `u` after each step is uniform again.
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    const double w = weight(lights_[i], position, normal);
+    if (!(w > 0)) continue;
+    r.total += w;
+    const double split = w / r.total;
+    if (u < split) {
+      r.light = int(i), r.weight = w;
+      u /= split;
+    } else {
+      u = (u - split) / (1 - split);
+    }
+  }
+  return r;
 }
 
 double Lights::solid_pdf(const Light& light, const Ray& ray, double t) {
@@ -99,19 +112,12 @@ double Lights::solid_pdf(const Light& light, const Ray& ray, double t) {
   return cosine > 0 ? t * t * length * length / (cosine * light.area) : 0;
 }
 
-LightSample Lights::sample(const Receiver& receiver, float choice, const glm::vec2& u) const {
+LightSample Lights::sample(const Receiver& receiver, const glm::vec2& u) const {
+  if (receiver.light < 0) return {};
   const Vec& at = receiver.position;
-  const double total = total_weight(receiver);
-  if (!(total > 0)) return {};
-  double left = choice * total;
-  const Light* light = nullptr;
-  for (const Light& candidate : lights_) {
-    const double w = weight(candidate, receiver);
-    if (w > 0) light = &candidate;
-    if ((left -= w) < 0) break;
-  }
+  const Light* light = &lights_[std::size_t(receiver.light)];
   LightSample s;
-  const double share = weight(*light, receiver) / total;
+  const double share = receiver.weight / receiver.total;
   if (const auto* sphere = std::get_if<Sphere>(&light->shape)) {
     const double width = cone(*sphere, at), cosine = 1 - u.x * width, phi = 2 * kPiExact * u.y;
     const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
@@ -148,21 +154,21 @@ LightSample Lights::sample(const Receiver& receiver, float choice, const glm::ve
 
 float Lights::pdf(const Receiver& receiver, const Vec& direction, const Hit& hit) const {
   const int e = geometry_->emitter_of(hit.group, hit.surface);
-  const double total = total_weight(receiver);
-  if (e < 0 || !(total > 0)) return 0;
+  if (e < 0 || !(receiver.total > 0)) return 0;
   const Light& light = lights_[std::size_t(e)];
-  return float(weight(light, receiver) / total * solid_pdf(light, {receiver.position, direction}, hit.point.t));
+  return float(weight(light, receiver.position, receiver.normal) / receiver.total *
+               solid_pdf(light, {receiver.position, direction}, hit.point.t));
 }
 
 float Lights::pdf_environment(const Receiver& receiver, const Vec& direction) const {
-  const double total = total_weight(receiver);
-  if (!(total > 0)) return 0;
+  if (!(receiver.total > 0)) return 0;
   const Ray ray{receiver.position, direction};
   // Openings may lie one behind the other; each could have given the direction.
   double sum = 0;
   for (std::size_t i = geometry_->emitters().size(); i < lights_.size(); ++i) {
     const double t = crossing_flat(std::get<Quad>(lights_[i].shape), ray);
-    if (t > 0) sum += weight(lights_[i], receiver) / total * solid_pdf(lights_[i], ray, t);
+    if (t > 0)
+      sum += weight(lights_[i], receiver.position, receiver.normal) / receiver.total * solid_pdf(lights_[i], ray, t);
   }
   return float(sum);
 }

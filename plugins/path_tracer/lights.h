@@ -7,9 +7,12 @@
 
 namespace path_tracer {
 
-// A point of a surface that is to be lit, on the side of `normal`.
+// A point of a surface that is to be lit, on the side of `normal`, and the light that was chosen for it.
 struct Receiver {
   Vec position, normal;
+  int light = -1;     // -1: none can reach it
+  double weight = 0;  // of that light, and of all
+  double total = 0;
 };
 
 struct LightSample {
@@ -25,8 +28,8 @@ class Lights {
  public:
   Lights(const Scene&, const Geometry&, const Placement&, double time);
 
-  bool empty() const { return lights_.empty(); }
-  LightSample sample(const Receiver&, float choice, const glm::vec2& u) const;
+  Receiver receiver(const Vec& position, const Vec& normal, float choice) const;
+  LightSample sample(const Receiver&, const glm::vec2& u) const;
   // Density with which `sample` picks this direction from the receiver: where a ray in it ends on an emitter, and where
   // it ends nowhere.
   float pdf(const Receiver&, const Vec& direction, const Hit&) const;
@@ -41,11 +44,10 @@ class Lights {
     bool two_sided, portal;
     Vec center, normal;
     double area, power, radius2;
-    Vec corners[8];  // of a hull
+    Vec hull, edges[3];  // a parallelepiped around it: corner and edges
   };
   static Light make(const Shape&, const Rgb& radiance, bool two_sided, bool portal);
-  static double weight(const Light&, const Receiver&);
-  double total_weight(const Receiver&) const;
+  static double weight(const Light&, const Vec& at, const Vec& normal);
   // Density over solid angle of picking the ray's direction on this light, where the ray meets it at t.
   static double solid_pdf(const Light&, const Ray&, double t);
 
