@@ -11,6 +11,9 @@
 #include <glm/glm.hpp>
 #include <string>
 #include <thread>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
 
 namespace {
 
@@ -86,6 +89,17 @@ TEST(PathTracer, SameBitsFromSeveralThreads) {
   for (auto& t : threads) t.join();
   for (const auto& r : results) expect_same(alone, r);
 }
+
+#if defined(__SSE2__)
+TEST(PathTracer, SameBitsWhereDenormalsAreFlushed) {
+  const auto plain = tracer(kRoom, 32, 18, 2).run();
+  const unsigned before = _mm_getcsr();
+  _mm_setcsr(before | 0x8040);  // flush to zero, denormals are zero: as in the host's workers
+  const auto flushed = tracer(kRoom, 32, 18, 2).run();
+  _mm_setcsr(before);
+  expect_same(plain, flushed);
+}
+#endif
 
 TEST(PathTracer, SeedAndFrameChooseTheNoise) {
   const Image a = tracer(kRoom, 32, 18).run("color"), b = tracer(kRoom, 32, 18).set("seed", 1).run("color");
@@ -415,6 +429,23 @@ TEST(PathTracer, BoxJitterMovesColourButNoFeature) {
   const auto center = tracer(kRoom, 32, 18).run(), box = tracer(kRoom, 32, 18).set("jitter", std::string("box")).run();
   EXPECT_FALSE(same_bits(center[kColor], box[kColor]));
   for (const Output o : {kAlbedo, kNormal, kDepth, kPosition, kMotion, kId}) EXPECT_TRUE(same_bits(center[o], box[o]));
+}
+
+TEST(PathTracer, EmissionIsWhatIsSeenOfLights) {
+  // The arcade's middle lamp switches on at frame 10 and shines black before.
+  const std::string arcade = QUELL_TEST_SOURCE "/graphs/scenes/arcade.json";
+  const auto off = tracer(arcade, 96, 54).frame(9).run(), on = tracer(arcade, 96, 54).frame(10).run();
+  int switched = 0;
+  for (int y = 0; y < 54; ++y)
+    for (int x = 0; x < 96; ++x) {
+      const glm::dvec3 before = rgb(off[kEmission], x, y), after = rgb(on[kEmission], x, y);
+      if (after == glm::dvec3(26, 19.5, 13) && before == glm::dvec3(0)) ++switched;
+      if (after != glm::dvec3(0)) {
+        EXPECT_EQ(rgb(on[kColor], x, y), after);
+      }
+      for (int c = 0; c < 3; ++c) EXPECT_GE(on[kColor].at(c, x, y), on[kEmission].at(c, x, y));
+    }
+  EXPECT_GT(switched, 4);
 }
 
 // ---- Bad scene files ----
