@@ -35,7 +35,9 @@ std::string fingerprint_text(const Graph& g) {
       for (const auto& wire : node.in[p])
         text += fmt::format("  in {} {}\n", node.type().inputs()[p].name, shown(g, wire));
   }
-  for (const auto& output : g.outputs) text += fmt::format("output {} {}\n", output.name, shown(g, output.wire));
+  for (const auto& output : g.outputs)
+    if (!output.tap)  // shows what is computed anyway
+      text += fmt::format("output {} {}\n", output.name, shown(g, output.wire));
   return text;
 }
 
