@@ -1,11 +1,8 @@
-// Motion of still and moving points, of the sky, and of the GAMES202 box against values computed from its files.
-#include <OpenImageIO/imagebuf.h>
+// Motion of still and moving points and of the sky, against their projection.
 #include <gtest/gtest.h>
 #include <quell/types.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <glm/glm.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
@@ -196,104 +193,6 @@ TEST(MotionVectors, SaysWhatIsMissing) {
                       .in("transforms", objects)
                       .in("transforms_before", objects)),
             "transforms need id, to tell which matrix moves a pixel");
-}
-
-// ---- GAMES202, homework 5, "box" ----
-
-class Games202Box : public ::testing::Test {
- protected:
-  void SetUp() override {
-    const char* folder = std::getenv("QUELL_TEST_DATA");
-    if (!folder) GTEST_SKIP() << "QUELL_TEST_DATA names no folder of test data";
-    folder_ = std::string(folder) + "/games202-box/";
-  }
-
-  Image read(const std::string& name, int channels) const {
-    OIIO::ImageBuf buffer(folder_ + name);
-    EXPECT_TRUE(buffer.read(0, 0, true, OIIO::TypeDesc::FLOAT)) << name << ": " << buffer.geterror();
-    Image out(buffer.spec().width, buffer.spec().height, channels);
-    for (int c = 0; c < channels; ++c)
-      for (int y = 0; y < out.height(); ++y)
-        for (int x = 0; x < out.width(); ++x) out.at(c, x, y) = buffer.getchannel(x, y, 0, c);
-    return out;
-  }
-
-  Image ids(int frame) const {
-    const auto raw = read("ID_" + std::to_string(frame) + ".exr", 1);
-    Image out(raw.width(), raw.height(), 1);
-    for (int y = 0; y < out.height(); ++y)
-      for (int x = 0; x < out.width(); ++x)
-        out.bits(0, y)[x] = raw.at(0, x, y) < 0 ? kNoId : std::uint32_t(raw.at(0, x, y));
-    return out;
-  }
-
-  // The objects, and the camera.
-  std::pair<Image, Image> matrices(int frame) const {
-    std::ifstream file(folder_ + "matrix_" + std::to_string(frame) + ".mat", std::ios::binary);
-    std::int32_t n = 0;
-    file.read(reinterpret_cast<char*>(&n), 4);
-    Image objects(16, n, 1), view(16, 2, 1);
-    for (int i = 0; i < n + 2; ++i)
-      file.read(reinterpret_cast<char*>(i < n ? objects.row(0, i) : view.row(0, i - n)), 64);
-    EXPECT_TRUE(file.good());
-    return {std::move(objects), std::move(view)};
-  }
-
-  std::string folder_;
-};
-
-TEST_F(Games202Box, MovesAsItsMatricesSay) {
-  const auto position = read("position_1.exr", 3), depth = read("depth_1.exr", 1);
-  const auto id = ids(1), id_before = ids(0);
-  const auto [objects, view] = matrices(1);
-  const auto [objects_before, view_before] = matrices(0);
-  const auto motion_from = [&](const char* port, const Image& image) {
-    return Node("motion_vectors")
-        .in(port, image)
-        .in("id", id)
-        .in("camera", view)
-        .in("camera_before", view_before)
-        .in("transforms", objects)
-        .in("transforms_before", objects_before)
-        .run("motion");
-  };
-  const auto motion = motion_from("position", position), rebuilt = motion_from("depth", depth);
-
-  struct Golden {
-    int x, y;
-    double dx, dy;
-  };
-  for (const auto& g :
-       {Golden{260, 208, -19.1710, 0.0769}, {273, 208, -20.2523, -0.1118}, {286, 208, -17.7859, -0.3282}}) {
-    EXPECT_NEAR(motion.at(0, g.x, g.y), g.dx, 1e-3);
-    EXPECT_NEAR(motion.at(1, g.x, g.y), g.dy, 1e-3);
-  }
-  double longest = 0;
-  for (int y = 0; y < 512; ++y)
-    for (int x = 0; x < 512; ++x) {
-      longest = std::max(longest, std::hypot(double(motion.at(0, x, y)), double(motion.at(1, x, y))));
-      ASSERT_NEAR(motion.at(0, x, y), rebuilt.at(0, x, y), 1e-3) << x << ',' << y;
-      ASSERT_NEAR(motion.at(1, x, y), rebuilt.at(1, x, y), 1e-3) << x << ',' << y;
-    }
-  EXPECT_NEAR(longest, 30.555, 1e-3);
-
-  const auto taps = Node("disocclusion")
-                        .set("mode", "nearest")
-                        .set("fallback", false)
-                        .in("motion", motion)
-                        .in("id", id)
-                        .in("id_before", id_before)
-                        .run("taps");
-  int valid = 0, background = 0, mismatch = 0;
-  for (int y = 0; y < 512; ++y)
-    for (int x = 0; x < 512; ++x) {
-      const bool miss = id.bits(0, y)[x] == kNoId;
-      const bool found = taps.at(0, x, y) + taps.at(1, x, y) + taps.at(2, x, y) + taps.at(3, x, y) > 0;
-      background += miss, valid += !miss && found, mismatch += !miss && !found;
-    }
-  EXPECT_EQ(background, 14140);
-  EXPECT_EQ(valid, 246456);
-  EXPECT_EQ(mismatch, 1548);
 }
 
 }  // namespace
