@@ -77,23 +77,47 @@ class Converter {
       if (c_.scale_by_size && i < 2) factor_[i] *= float(i == 0 ? image.width : image.height);
       if (c_.flip_y && i == 1) factor_[i] = -factor_[i];
     }
+    per_pixel_ = c_.miss || c_.display || c_.encoded || c_.reciprocal || c_.needs_camera();
   }
 
   void row(int y) {
     std::vector<float*> planes;
     for (int c = 0; c < image_.channels; ++c) planes.push_back(image_.plane[c] + y * image_.pitch);
     const Row row(planes);
-    for (int x = window_.x0; x < window_.x1; ++x) {
-      if (is_miss(row, x)) {
-        for (float* p : row) p[x] = missing_;
-        continue;
+    if (per_pixel_) {
+      for (int x = window_.x0; x < window_.x1; ++x) {
+        if (is_miss(row, x)) {
+          for (float* p : row) p[x] = missing_;
+          continue;
+        }
+        transform(row, x, y);
+        repair(row, x);
       }
-      transform(row, x, y);
-      repair(row, x);
+      return;
     }
+    // Most rows of most images: factors at most, and nothing to repair.
+    for (std::size_t i = 0; i < row.size(); ++i)
+      if (factor_[i] != 1.0f)
+        for (int x = window_.x0; x < window_.x1; ++x) row[i][x] *= factor_[i];
+    const bool repaired_anyway = type_ == QUELL_NORMAL || type_ == QUELL_DEPTH;
+    if (!repaired_anyway && is_clean(row)) return;
+    for (int x = window_.x0; x < window_.x1; ++x) repair(row, x);
   }
 
  private:
+  // All finite, and no sign bit where nothing may be negative.
+  bool is_clean(Row row) const {
+    constexpr std::uint32_t exponent = 0x7F800000u;
+    const std::uint32_t sign = never_negative(type_) ? 0x80000000u : 0u;
+    bool clean = true;
+    for (const float* p : row)
+      for (int x = window_.x0; x < window_.x1; ++x) {
+        const auto bits = std::bit_cast<std::uint32_t>(p[x]);
+        clean &= ((bits & exponent) != exponent) & ((bits & sign) == 0);
+      }
+    return clean;
+  }
+
   bool is_miss(Row row, int x) const {
     if (c_.miss && std::ranges::all_of(row, [&](const float* p) { return p[x] == *c_.miss; })) return true;
     if (!c_.miss_is_camera) return false;
@@ -128,6 +152,13 @@ class Converter {
   }
 
   void repair(Row row, int x) {
+    if (type_ == QUELL_DEPTH) {
+      // An infinite depth is a miss that needs no repair.
+      const float z = row[0][x];
+      if (std::isnan(z)) ++repairs_.non_finite;
+      if (!std::isfinite(z) || z == 0.0f || z >= kFarInFiles) row[0][x] = kFar;
+      return;
+    }
     bool finite = true, nan = false, negative = false;
     for (const float* p : row) {
       finite = finite && std::isfinite(p[x]);
@@ -135,12 +166,6 @@ class Converter {
       negative = negative || (p[x] < 0.0f && std::isfinite(p[x]));
     }
     const bool color = type_ == QUELL_RADIANCE || type_ == QUELL_ALBEDO;
-    if (type_ == QUELL_DEPTH) {
-      // An infinite depth is a miss that needs no repair.
-      if (nan) ++repairs_.non_finite;
-      if (!finite || row[0][x] == 0.0f || row[0][x] >= kFarInFiles) row[0][x] = kFar;
-      return;
-    }
     if (!finite) {
       ++repairs_.non_finite;
       for (float* p : row) {
@@ -173,6 +198,7 @@ class Converter {
   Matrix view_to_world_ = kIdentity;
   std::optional<Rays> rays_;
   std::vector<float> factor_;
+  bool per_pixel_ = false;  // more than factors and repairs
 };
 
 // Ids are read as uint32 already.
