@@ -193,6 +193,11 @@ class Loader {
   void references(const Json& json, DocumentContext& context) {
     const Json* j = json.find("reference");
     if (!j) return;
+    if (j->find("source")) {
+      check_keys(*j, "reference", std::vector<std::string>{"source"}, diagnostics_);
+      sequence_.reference_source = source_node(*j, "reference");
+      return;
+    }
     const auto add = [&](const std::string& role, const Json& value, const std::string& path) {
       // By its role an entry would have no type; a reference is always radiance.
       auto input = parse_input("color", value, path, false, context);
@@ -216,21 +221,27 @@ class Loader {
   }
 
   void source(const Json& json) {
-    const Json* j = member(json, "source", Json::Kind::object, "", diagnostics_);
-    if (!j) return;
-    const std::vector<std::string> keys = {"type", "set"};
-    check_keys(*j, "source", keys, diagnostics_);
+    sequence_.source = source_node(json, "");
+    if (sequence_.source && sequence_.frames.empty() && !json.find("frames"))
+      diagnostics_.error(json.find("source")->position, "source",
+                         "a source makes any frame; say which with \"frames\"");
+  }
+
+  // What stands under "source" in an object at `where`.
+  std::optional<SourceNode> source_node(const Json& json, const std::string& where) {
+    const Json* j = member(json, "source", Json::Kind::object, where, diagnostics_);
+    if (!j) return {};
+    const std::string path = joined(where, "source");
+    check_keys(*j, path, std::vector<std::string>{"type", "set"}, diagnostics_);
     SourceNode node;
-    if (const Json* type = member(*j, "type", Json::Kind::text, "source", diagnostics_)) {
+    if (const Json* type = member(*j, "type", Json::Kind::text, path, diagnostics_)) {
       node.type = type->text;
       node.position = type->position;
     } else if (!j->find("type")) {
-      diagnostics_.error(j->position, "source", "has no \"type\": the name of a node that makes frames");
+      diagnostics_.error(j->position, path, "has no \"type\": the name of a node that makes frames");
     }
-    if (const Json* set = member(*j, "set", Json::Kind::object, "source", diagnostics_)) node.set = *set;
-    if (sequence_.frames.empty() && !json.find("frames"))
-      diagnostics_.error(j->position, "source", "a source makes any frame; say which with \"frames\"");
-    sequence_.source = std::move(node);
+    if (const Json* set = member(*j, "set", Json::Kind::object, path, diagnostics_)) node.set = *set;
+    return node;
   }
 
   // ---- Profiles ----

@@ -56,6 +56,7 @@ struct Sequence {
   std::vector<SequenceInput> inputs;      // of files; empty when there is a source node
   std::vector<SequenceInput> references;  // role "reference", or "reference_a" and "reference_b"; type radiance
   std::optional<SourceNode> source;
+  std::optional<SourceNode> reference_source;  // in place of references; its output "color" is the reference
 
   const SequenceInput* find(std::string_view role) const;  // among inputs and references, or nullptr
   std::map<std::string, int> roles() const;                // of inputs and references

@@ -340,6 +340,20 @@ TEST_F(SequenceTest, ExposesSourceNodes) {
   EXPECT_EQ(sequence.frames, (Frames{0, 1, 2}));
 }
 
+TEST_F(SequenceTest, TheBuiltInSequencesHaveSourcesForFramesAndReference) {
+  const auto folder = std::filesystem::path(QUELL_TEST_SOURCE) / "graphs/sequences";
+  int found = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder)) {
+    const Sequence sequence = load_path(file.path().string());
+    ASSERT_TRUE(sequence.source && sequence.reference_source) << file.path();
+    EXPECT_EQ(sequence.source->type, "path_tracer");
+    EXPECT_EQ(sequence.reference_source->set->find("spp")->integer, 1024);
+    EXPECT_EQ(sequence.frames.size(), 32u);
+    ++found;
+  }
+  EXPECT_EQ(found, 2);
+}
+
 TEST_F(SequenceTest, ReadsReferencesWhereThereAreSome) {
   for (int i = 0; i < 4; ++i) write("c_" + std::to_string(i) + ".exr", 2, 2, kColor);
   for (const char* half : {"a", "b"}) write("ref_2_" + std::string(half) + ".exr", 2, 2, {{"R", 7}, {"G", 8}, {"B", 9}});
