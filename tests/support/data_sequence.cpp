@@ -10,12 +10,13 @@ namespace quell::test {
 
 bool has_data() { return std::getenv("QUELL_TEST_DATA") != nullptr; }
 
-DataSequence::DataSequence(const std::string& name, const std::string& folder) {
+DataSequence::DataSequence(const std::string& name, const std::string& folder, const std::string& frames) {
   const std::filesystem::path source = QUELL_TEST_SOURCE;
   SequenceRequest request;
   request.path = (source / "tests/data_sequences" / (name + ".json")).string();
   request.root = (std::filesystem::path(std::getenv("QUELL_TEST_DATA")) / folder).string();
   request.profiles = source / "graphs/profiles";
+  if (!frames.empty()) request.frames = frames;
   Diagnostics diagnostics;
   const auto sequence = load_sequence(request, diagnostics);
   if (sequence) files_ = open_sequence(*sequence, {}, Missing::error, diagnostics);

@@ -15,8 +15,11 @@ bool has_data();
 
 class DataSequence {
  public:
-  // tests/data_sequences/<name>.json over the files of the data's folder. Throws where it cannot be opened.
-  DataSequence(const std::string& name, const std::string& folder);
+  // tests/data_sequences/<name>.json over the files of the data's folder; `frames` in place of its own, unless empty.
+  // Throws where it cannot be opened.
+  DataSequence(const std::string& name, const std::string& folder, const std::string& frames = "");
+
+  FileSequence& files() { return *files_; }
 
   Image read(std::int64_t frame, const std::string& role);
 
