@@ -28,7 +28,7 @@ struct LuminanceWeight {
   }
 
   void weigh(const quell_input* in, const quell_run& run, float* exponent) const {
-    const quell::Rgb rgb{quell::plane(in, image, 0), quell::plane(in, image, 1), quell::plane(in, image, 2)};
+    const quell::RgbPlanes rgb{quell::plane(in, image, 0), quell::plane(in, image, 1), quell::plane(in, image, 2)};
     const float* v = quell::has(in, variance) ? quell::plane(in, variance, 0) : nullptr;
     quell::luminance_weigh(run, rgb, v, sigma, epsilon, exponent);
   }

@@ -5,11 +5,12 @@
 
 namespace quell {
 
-struct Rgb {
+struct RgbPlanes {
   const float *r, *g, *b;
 };
 
 // variance may be null.
-void luminance_weigh(const quell_run&, Rgb image, const float* variance, float sigma, float epsilon, float* exponent);
+void luminance_weigh(const quell_run&, RgbPlanes image, const float* variance, float sigma, float epsilon,
+                     float* exponent);
 
 }  // namespace quell

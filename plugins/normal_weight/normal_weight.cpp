@@ -27,7 +27,7 @@ struct NormalWeight {
   }
 
   void weigh(const quell_input* in, const quell_run& run, float* exponent) const {
-    const quell::Normals n{quell::plane(in, normal, 0), quell::plane(in, normal, 1), quell::plane(in, normal, 2)};
+    const quell::NormalPlanes n{quell::plane(in, normal, 0), quell::plane(in, normal, 1), quell::plane(in, normal, 2)};
     if (mode == Mode::power)
       quell::normal_weigh_power(run, n, power, exponent);
     else

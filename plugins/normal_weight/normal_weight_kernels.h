@@ -5,11 +5,11 @@
 
 namespace quell {
 
-struct Normals {
+struct NormalPlanes {
   const float *x, *y, *z;
 };
 
-void normal_weigh_power(const quell_run&, Normals, float power, float* exponent);
-void normal_weigh_angle(const quell_run&, Normals, float sigma, float* exponent);
+void normal_weigh_power(const quell_run&, NormalPlanes, float power, float* exponent);
+void normal_weigh_angle(const quell_run&, NormalPlanes, float sigma, float* exponent);
 
 }  // namespace quell

@@ -41,7 +41,7 @@ TEST(NormalWeight, Power) {
 
 TEST(NormalWeight, Angle) {
   const auto normal = normal_image(kWidth, kHeight, 4, true);
-  for (const float sigma : {0.05f, 0.1f, 0.5f, 3.0f}) {
+  for (const float sigma : {0.05f, 0.117f, 0.118f, 0.5f, 3.0f}) {
     SCOPED_TRACE(sigma);
     Node node("normal_weight");
     node.set("mode", "angle").set("sigma", sigma).in("normal", normal);

@@ -29,13 +29,13 @@ struct PlaneWeight {
   }
 
   void weigh(const quell_input* in, const quell_run& run, float* exponent) const {
-    const quell::Surface surface{quell::plane(in, position, 0), quell::plane(in, position, 1),
-                                 quell::plane(in, position, 2), quell::plane(in, normal, 0),
-                                 quell::plane(in, normal, 1),   quell::plane(in, normal, 2)};
+    const quell::PlaneGuides guides{quell::plane(in, position, 0), quell::plane(in, position, 1),
+                                    quell::plane(in, position, 2), quell::plane(in, normal, 0),
+                                    quell::plane(in, normal, 1),   quell::plane(in, normal, 2)};
     if (mode == Mode::sine)
-      quell::plane_weigh_sine(run, surface, sigma, exponent);
+      quell::plane_weigh_sine(run, guides, sigma, exponent);
     else
-      quell::plane_weigh_distance(run, surface, sigma, exponent);
+      quell::plane_weigh_distance(run, guides, sigma, exponent);
   }
 };
 

@@ -9,7 +9,7 @@ QUELL_SIMD_BEGIN
 // the centre: the sine of the neighbour's elevation, which needs no scale. A miss is told by its normal alone: what its
 // position holds is anybody's guess.
 template <bool kSine>
-HWY_INLINE void weigh_plane(const quell_run& run, Surface s, float sigma, float* exponent) {
+HWY_INLINE void weigh_plane(const quell_run& run, PlaneGuides s, float sigma, float* exponent) {
   const V scale = all(kLog2E / (2 * sigma * sigma));
   each(run, exponent, [=](auto p) HWY_ATTR {
     const V x = p(s.x), y = p(s.y), z = p(s.z), nx = p(s.nx), ny = p(s.ny), nz = p(s.nz);
@@ -27,8 +27,10 @@ HWY_INLINE void weigh_plane(const quell_run& run, Surface s, float sigma, float*
     };
   });
 }
-void sine(const quell_run& run, Surface s, float sigma, float* exponent) { weigh_plane<true>(run, s, sigma, exponent); }
-void distance(const quell_run& run, Surface s, float sigma, float* exponent) {
+void sine(const quell_run& run, PlaneGuides s, float sigma, float* exponent) {
+  weigh_plane<true>(run, s, sigma, exponent);
+}
+void distance(const quell_run& run, PlaneGuides s, float sigma, float* exponent) {
   weigh_plane<false>(run, s, sigma, exponent);
 }
 
@@ -40,10 +42,10 @@ namespace quell {
 HWY_EXPORT(sine);
 HWY_EXPORT(distance);
 
-void plane_weigh_sine(const quell_run& run, Surface s, float sigma, float* exponent) {
+void plane_weigh_sine(const quell_run& run, PlaneGuides s, float sigma, float* exponent) {
   HWY_DYNAMIC_DISPATCH(sine)(run, s, sigma, exponent);
 }
-void plane_weigh_distance(const quell_run& run, Surface s, float sigma, float* exponent) {
+void plane_weigh_distance(const quell_run& run, PlaneGuides s, float sigma, float* exponent) {
   HWY_DYNAMIC_DISPATCH(distance)(run, s, sigma, exponent);
 }
 

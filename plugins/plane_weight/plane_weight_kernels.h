@@ -5,12 +5,12 @@
 
 namespace quell {
 
-struct Surface {
+struct PlaneGuides {
   const float *x, *y, *z;     // position
   const float *nx, *ny, *nz;  // normal
 };
 
-void plane_weigh_sine(const quell_run&, Surface, float sigma, float* exponent);
-void plane_weigh_distance(const quell_run&, Surface, float sigma, float* exponent);
+void plane_weigh_sine(const quell_run&, PlaneGuides, float sigma, float* exponent);
+void plane_weigh_distance(const quell_run&, PlaneGuides, float sigma, float* exponent);
 
 }  // namespace quell
