@@ -1,0 +1,138 @@
+// quell run: a graph over a sequence, to files.
+#include "apps/quell/command.h"
+#include "apps/quell/file_sink.h"
+#include "apps/quell/interrupt.h"
+#include "apps/quell/progress.h"
+#include "apps/quell/run_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+namespace quell {
+
+namespace {
+
+struct RunArguments {
+  PluginOptions plugins;
+  GraphOptions graph;
+  SequenceOptions sequence;
+  std::vector<std::string> output;
+  std::string compression = "zip", progress = "auto", save_state, load_state, report;
+  bool full = false, preview = false, quiet = false, times = false;
+  int threads = 0, band_rows = 0;
+  double max_memory = 0;  // GiB
+
+  ProgressStyle style() const {
+    if (quiet) return ProgressStyle::none;
+    if (progress == "json") return ProgressStyle::json;
+    return progress == "none" ? ProgressStyle::none : ProgressStyle::automatic;
+  }
+};
+
+WriteOptions write_options(const RunArguments& a, const Graph& graph) {
+  WriteOptions options;
+  options.half = !a.full;
+  options.compression = a.compression;
+  options.metadata = {
+      {"Software", "quell " QUELL_VERSION}, {"quell:graph", graph.name}, {"quell:fingerprint", fingerprint(graph)}};
+  return options;
+}
+
+void print_repairs(const std::map<std::string, Repairs>& repairs) {
+  for (const auto& [role, r] : repairs) {
+    if (r.non_finite)
+      fmt::print(stderr, "warning: {}: {} pixels were not finite and have been replaced\n", role, r.non_finite);
+    if (r.negative)
+      fmt::print(stderr, "warning: {}: {} pixels were negative and have been raised to 0\n", role, r.negative);
+  }
+}
+
+int run(const RunArguments& a) {
+  const auto& cancel = watch_interrupts();
+  Commander commander(a.plugins);
+  const auto sequence = commander.load(a.sequence);
+  const auto graph = commander.load(a.graph, sequence ? &*sequence : nullptr);
+  if (!sequence || !graph) return commander.report();
+  std::vector<std::string> roles;
+  for (const auto& input : graph->inputs) roles.push_back(input.name);
+  const auto frames = commander.open(*sequence, a.sequence, roles, a.threads, &cancel);
+  const int code = commander.report();
+  if (!frames || code) return code ? code : int(Exit::input);
+
+  FileSink sink(*graph, a.output, frames->frames().size() > 1, a.preview, write_options(a, *graph));
+  RunOptions options;
+  options.threads = a.threads;
+  options.band_rows = a.band_rows;
+  options.max_memory = std::size_t(a.max_memory * 1024 * 1024 * 1024);
+  options.load_state = a.load_state;
+  options.save_state = a.save_state;
+  options.cancel = &cancel;
+  RunReport report;
+  {
+    ProgressPrinter progress(a.style());
+    options.progress = [&](const Progress& p) { progress(p); };
+    report = run_graph(*graph, *frames, sink, options);
+  }
+  print_repairs(frames->repairs());
+  if (!a.quiet) {
+    fmt::print(stderr, "{}", summary_text(report));
+    for (std::size_t i = 0; i < sink.patterns().size(); ++i)
+      fmt::print(stderr, "{}: {}\n", graph->outputs[i].name, sink.patterns()[i].text());
+  }
+  if (a.times) fmt::print(stderr, "{}", times_text(report));
+  if (!a.report.empty()) write_report(a.report, *graph, report);
+  return 0;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& exit) {
+  auto* sub = app.add_subcommand("run", "Runs a graph over a sequence and writes its outputs.");
+  auto a = std::make_shared<RunArguments>();
+  a->graph.add_to(*sub);
+  a->sequence.add_to(*sub, true);
+  sub->add_option("-o,--output", a->output,
+                  "Where outputs go: a pattern for the first, NAME=PATTERN for any. Default: out/<name>.####.exr; the "
+                  "others are written beside the first.")
+      ->type_name("PATTERN")
+      ->take_all()
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  sub->add_flag("--float", a->full, "Writes 32-bit floats in place of halves.");
+  sub->add_option("--compression", a->compression, "Of EXR files: none, rle, zips, zip, piz, pxr24, dwaa, dwab.")
+      ->capture_default_str();
+  sub->add_flag("--preview", a->preview, "Writes a PNG beside each image that an eye can read.");
+  sub->add_option("--threads", a->threads, "Threads; 0: every core.")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  sub->add_option("--band-rows", a->band_rows, "Rows of a band; 0: chosen per node. Changes no result.")
+      ->check(CLI::Range(0, 1 << 20))
+      ->group("Tuning");
+  sub->add_option("--max-memory", a->max_memory, "Refuses to start when the images would take more; GiB, 0: no limit.")
+      ->check(CLI::Range(0.0, 1e6))
+      ->group("Tuning");
+  sub->add_option("--save-state", a->save_state, "Saves the history after the last frame.")
+      ->type_name("FILE")
+      ->group("Chunks");
+  sub->add_option("--load-state", a->load_state, "Goes on from a saved history.")->type_name("FILE")->group("Chunks");
+  sub->add_option("--progress", a->progress, "auto, json or none.")
+      ->check(CLI::IsMember({"auto", "json", "none"}))
+      ->capture_default_str();
+  sub->add_flag("--quiet", a->quiet, "Prints errors and warnings only.");
+  sub->add_flag("--times", a->times, "Prints the time of each node and the memory.");
+  sub->add_option("--report", a->report, "Writes times, memory and frames as JSON.")->type_name("FILE");
+  a->plugins.add_to(*sub);
+  sub->footer(
+      "Examples:\n"
+      "  quell run svgf room -o 'out/color.####.exr' --preview\n"
+      "  quell run svgf shot.json --frames 1-20 --set alpha=0.1 --tap blend.image\n"
+      "  quell run svgf shot.json --frames 0-49 --save-state a.state; quell run svgf shot.json --frames 50-99 "
+      "--load-state a.state\n"
+      "  quell run svgf shot.json --swap by_normal=plane_weight --bypass clamp");
+  sub->callback([a, &exit] { exit = run(*a); });
+}
+
+}  // namespace quell

@@ -1,0 +1,72 @@
+// What a run took.
+#include "apps/quell/run_report.h"
+
+#include "core/sequence/temporary_file.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <nlohmann/json.hpp>
+
+namespace quell {
+
+namespace {
+
+constexpr double kMiB = 1024.0 * 1024.0;
+
+// Of the process, MiB.
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return double(usage.ru_maxrss) / 1024.0;
+}
+
+double per_frame(const RunReport& r, double seconds) { return r.frames ? 1e3 * seconds / double(r.frames) : 0; }
+
+}  // namespace
+
+std::string summary_text(const RunReport& r) {
+  return fmt::format(
+      "{} frames in {:.2f} s on {} threads, {:.1f} ms a frame; history began anew {} times\n"
+      "ms a frame, wall (cpu): read {:.1f} ({:.1f}), filter {:.1f} ({:.1f}), write {:.1f} ({:.1f}); images {:.0f} MiB, "
+      "peak {:.0f} MiB\n",
+      r.frames, r.wall, r.threads, per_frame(r, r.wall), r.resets, per_frame(r, r.read_wall), per_frame(r, r.read_cpu),
+      per_frame(r, r.filter_wall), per_frame(r, r.filter_cpu), per_frame(r, r.write_wall), per_frame(r, r.write_cpu),
+      double(r.plan_bytes) / kMiB, peak_memory());
+}
+
+std::string times_text(const RunReport& r) {
+  double sum = 0;
+  for (const auto& n : r.nodes) sum += n.wall;
+  std::string out = fmt::format("{:<28} {:<20} {:>10} {:>7}\n", "node", "type", "ms/frame", "share");
+  for (const auto& n : r.nodes)
+    if (n.wall > 0)
+      out +=
+          fmt::format("{:<28} {:<20} {:>10.2f} {:>6.1f}%\n", n.name, n.type, per_frame(r, n.wall), 100 * n.wall / sum);
+  return out + fmt::format("{:<28} {:<20} {:>10.2f}\n", "all", "", per_frame(r, sum));
+}
+
+void write_report(const std::string& path, const Graph& graph, const RunReport& r) {
+  nlohmann::ordered_json j;
+  j["quell_report"] = 1;
+  j["graph"] = graph.name;
+  j["fingerprint"] = fingerprint(graph);
+  j["frames"] = r.frames;
+  j["threads"] = r.threads;
+  j["resets"] = r.resets;
+  j["seconds"] = r.wall;
+  for (const auto& [name, wall, cpu] : {std::tuple{"read", r.read_wall, r.read_cpu},
+                                        {"filter", r.filter_wall, r.filter_cpu},
+                                        {"write", r.write_wall, r.write_cpu}})
+    j[name] = {{"ms_per_frame", per_frame(r, wall)}, {"cpu_ms_per_frame", per_frame(r, cpu)}};
+  j["image_bytes"] = r.plan_bytes;
+  j["peak_bytes"] = std::uint64_t(peak_memory() * kMiB);
+  auto& nodes = j["nodes"] = nlohmann::ordered_json::array();
+  for (const auto& n : r.nodes)
+    nodes.push_back({{"name", n.name}, {"type", n.type}, {"ms_per_frame", per_frame(r, n.wall)}});
+  const std::string text = j.dump(2) + "\n";
+  TemporaryFile file(path);
+  file.write(text.data(), text.size());
+  file.commit();
+}
+
+}  // namespace quell

@@ -1,0 +1,119 @@
+// Runs a graph over a sequence inside a test.
+#include "tests/support/run_sequence.h"
+
+#include "core/run/node_source.h"
+#include "core/sequence/file_sequence.h"
+#include "core/sequence/sequence.h"
+#include "tests/support/run_node.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+
+namespace quell::test {
+
+namespace {
+
+class Keep : public FrameSink {
+ public:
+  explicit Keep(SequenceResult& result) : result_(result) {}
+  void write(std::int64_t frame, std::span<const quell_image> outputs) override {
+    auto& kept = result_.images[frame];
+    for (const auto& o : outputs) {
+      Image copy(o.width, o.height, o.channels);
+      for (int c = 0; c < o.channels; ++c)
+        for (int y = 0; y < o.height; ++y) std::copy_n(o.plane[c] + y * o.pitch, o.width, copy.row(c, y));
+      kept.push_back(std::move(copy));
+    }
+  }
+
+ private:
+  SequenceResult& result_;
+};
+
+}  // namespace
+
+SequenceResult run_sequence(const SequenceRun& run) {
+  Diagnostics diagnostics;
+  const auto fail = [&] { throw std::runtime_error(diagnostics.format()); };
+  const std::string graphs = QUELL_TEST_SOURCE "/graphs";
+  SequenceRequest request;
+  request.path = run.sequence;
+  if (!run.root.empty()) request.root = run.root;
+  if (!run.frames.empty()) request.frames = run.frames;
+  request.profiles = graphs + "/profiles";
+  const auto sequence = load_sequence(request, diagnostics);
+  if (!sequence) fail();
+
+  GraphRequest wanted;
+  wanted.graph = run.graph;
+  wanted.graphs = graphs;
+  wanted.edits = run.edits;
+  wanted.roles = sequence->roles();
+  const NodeType* source = sequence->source ? registry().find(sequence->source->type) : nullptr;
+  if (sequence->source && !source) throw std::runtime_error("no node type " + sequence->source->type);
+  if (source)
+    for (const auto& port : source->outputs()) (*wanted.roles)[port.name] = port.type;
+  const auto graph = load_graph(wanted, registry(), diagnostics);
+  if (!graph) fail();
+
+  std::vector<std::string> roles;
+  for (const auto& input : graph->inputs) roles.push_back(input.name);
+  std::unique_ptr<FrameSource> frames;
+  if (source) {
+    Instance instance(*source);
+    for (const auto& [name, value] : run.source_ints) {
+      const int param = source->find_param(name);
+      if (param < 0) throw std::runtime_error("the source has no parameter " + name);
+      instance.set_int(param, value);
+    }
+    if (const int scene = source->find_param("scene"); scene >= 0)
+      instance.set_text(scene, graphs + "/scenes/room.json");
+    frames = std::make_unique<NodeSource>(std::move(instance), sequence->frames, sequence->cuts, run.options.threads,
+                                          nullptr);
+  } else {
+    frames = open_sequence(*sequence, roles, Missing::error, diagnostics);
+    if (!frames) fail();
+  }
+  SequenceResult result;
+  for (const auto& output : graph->outputs) result.names.push_back(output.name);
+  Keep sink(result);
+  result.report = run_graph(*graph, *frames, sink, run.options);
+  return result;
+}
+
+std::string test_data() {
+  const char* folder = std::getenv("QUELL_TEST_DATA");
+  return folder ? folder : "";
+}
+
+Image read_channels(const std::string& path, const std::vector<std::string>& channels) {
+  const auto input = OIIO::ImageInput::open(path);
+  if (!input) throw std::runtime_error(path + ": " + OIIO::geterror());
+  const auto& spec = input->spec();
+  Image image(spec.width, spec.height, int(channels.size()));
+  std::vector<float> plane(std::size_t(spec.width) * std::size_t(spec.height));
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const auto it = std::ranges::find(spec.channelnames, channels[i]);
+    if (it == spec.channelnames.end()) throw std::runtime_error(path + " has no channel " + channels[i]);
+    const int c = int(it - spec.channelnames.begin());
+    if (!input->read_image(0, 0, c, c + 1, OIIO::TypeDesc::FLOAT, plane.data()))
+      throw std::runtime_error(path + ": " + input->geterror());
+    for (int y = 0; y < spec.height; ++y)
+      std::copy_n(plane.data() + std::size_t(y) * std::size_t(spec.width), spec.width, image.row(int(i), y));
+  }
+  return image;
+}
+
+bool same_bits(const Image& a, const Image& b) {
+  if (a.width() != b.width() || a.height() != b.height() || a.channels() != b.channels()) return false;
+  for (int c = 0; c < a.channels(); ++c)
+    for (int y = 0; y < a.height(); ++y)
+      if (std::memcmp(a.row(c, y), b.row(c, y), std::size_t(a.width()) * sizeof(float))) return false;
+  return true;
+}
+
+}  // namespace quell::test
