@@ -24,7 +24,8 @@ class Inference {
         if (n.type->inputs()[p].type != QUELL_ANY) continue;
         any = true;
         for (const auto& l : n.in[p].links)
-          if (l.from.kind == Target::Kind::node) readers_[std::size_t(l.from.index)].push_back(int(i));
+          for (const auto& t : {l.from, l.start})
+            if (t.kind == Target::Kind::node) readers_[std::size_t(t.index)].push_back(int(i));
       }
       if (any) queue_.push_back(int(i));
     }
@@ -57,8 +58,10 @@ class Inference {
     for (std::size_t p = 0; p < n.in.size(); ++p) {
       if (n.type->inputs()[p].type != QUELL_ANY) continue;
       for (const auto& l : n.in[p].links) {
+        const bool started = l.start.kind != Target::Kind::none && !l.as;
         const int type = net_.type_of(l);
-        if (l.delay == 0 && !delayed) return type;
+        if (!delayed && l.delay == 0) return type;
+        if (!delayed && started) return net_.type_of(l.start);
         if (delayed && type != 0) return type;
       }
     }
