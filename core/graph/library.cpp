@@ -27,6 +27,12 @@ bool below(const fs::path& relative) {
   return !relative.empty() && !relative.has_root_path() && normal.begin() != normal.end() && *normal.begin() != "..";
 }
 
+// A source whose name begins with -- is an option, and options are trusted with more than files are.
+std::string source_name(const fs::path& file) {
+  const std::string name = file.generic_string();
+  return name.starts_with("--") ? "./" + name : name;
+}
+
 bool is_file(const fs::path& path) {
   std::error_code error;
   return fs::is_regular_file(path, error);
@@ -72,7 +78,7 @@ std::optional<fs::path> Library::locate(const std::string& written, TextPosition
 const Document* Library::open(const std::string& written, TextPosition position, const std::string& path) {
   const auto file = locate(written, position, path);
   if (!file) return nullptr;
-  const std::string name = file->generic_string();
+  const std::string name = source_name(*file);
   if (const auto it = documents_.find(name); it != documents_.end()) return it->second.get();
   return keep(name, parse_json_file(name, faults_.diagnostics()));
 }
@@ -92,21 +98,21 @@ const Document* Library::open_root(const std::string& graph, const std::optional
     file = installed(graph).value_or(graph);
   }
   root_folder_ = file.parent_path();
-  auto json = text ? parse_json(file.generic_string(), *text, faults_.diagnostics())
-                   : parse_json_file(file.generic_string(), faults_.diagnostics());
+  const std::string name = source_name(file);
+  auto json = text ? parse_json(name, *text, faults_.diagnostics()) : parse_json_file(name, faults_.diagnostics());
   if (json && laid_over) {
-    std::vector<std::string> files{file.generic_string()};
+    std::vector<std::string> files{name};
     auto layers = flatten(std::move(*json), files);
     if (!layers) return nullptr;
     auto changes = parse_changes(*laid_over, faults_);
-    const auto& document = keep(file.generic_string(), overlay(std::move(layers->json), *laid_over, faults_));
+    const auto& document = keep(name, overlay(std::move(layers->json), *laid_over, faults_));
     if (!document) return nullptr;
-    auto& all = documents_[file.generic_string()]->changes;
+    auto& all = documents_[name]->changes;
     all = std::move(layers->changes);
     all.insert(all.end(), std::make_move_iterator(changes.begin()), std::make_move_iterator(changes.end()));
     return faults_.ok() ? document : nullptr;
   }
-  return keep(file.generic_string(), std::move(json));
+  return keep(name, std::move(json));
 }
 
 std::optional<Library::Layers> Library::flatten(Json json, std::vector<std::string>& files) {
@@ -127,7 +133,7 @@ std::optional<Library::Layers> Library::flatten(Json json, std::vector<std::stri
   const std::string written = plain_name(base->text) ? fmt::format("quell:{}.json", base->text) : base->text;
   const auto file = locate(written, base->position, "base");
   if (!file) return std::nullopt;
-  const std::string name = file->generic_string();
+  const std::string name = source_name(*file);
   const bool again = std::ranges::find(files, name) != files.end();
   files.push_back(name);
   if (again || files.size() > kMaxBases) {

@@ -369,6 +369,19 @@ TEST_F(Files, EachUseOfASubgraphHasItsOwnHistory) {
   EXPECT_EQ(node(*l.graph, "q.blur").instance.get_float(1), 4.0f);
 }
 
+TEST_F(Files, AFileCalledLikeAnOptionIsNotTrustedLikeOne) {
+  write("--set #1", R"({"quell": 1, "inputs": {"x": "radiance"}, "nodes": {
+      "g": {"type": "grade", "in": {"image": "x"}, "set": {"table": "/etc/hostname"}}}, "outputs": {"x": "g"}})");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(scratch_.folder());
+  const auto l = load_text(nodes(R"("b": {"graph": "--set #1", "in": {"x": "color"}})"));
+  std::filesystem::current_path(before);
+  EXPECT_FALSE(l.graph);
+  EXPECT_TRUE(l.messages.starts_with(
+      "./--set #1:2:69: error: b.g.set.table: a graph names no files, as \"/etc/hostname\" does\n"))
+      << l.messages;
+}
+
 TEST_F(Files, ListsAreSpliced) {
   write("parts/filter.json", R"({"quell": 1, "inputs": {"image": "radiance", "w": "weight[]", "normal": "normal"},
       "nodes": {"own": {"type": "normal_weight", "in": {"normal": "normal"}},
