@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <stdexcept>
 
@@ -237,6 +238,14 @@ Image normal_image(int width, int height, std::uint32_t seed, bool misses) {
       image.at(2, x, y) = miss ? 0 : 1 / n;
     }
   return image;
+}
+
+bool same_bits(const Image& a, const Image& b) {
+  if (a.width() != b.width() || a.height() != b.height() || a.channels() != b.channels()) return false;
+  for (int c = 0; c < a.channels(); ++c)
+    for (int y = 0; y < a.height(); ++y)
+      if (std::memcmp(a.row(c, y), b.row(c, y), std::size_t(a.width()) * sizeof(float))) return false;
+  return true;
 }
 
 }  // namespace quell::test

@@ -58,5 +58,7 @@ Image noise_image(int width, int height, int channels, std::uint32_t seed, float
 Image constant_image(int width, int height, int channels, float value);
 // Unit normals that vary smoothly, with misses (0,0,0) where `misses`.
 Image normal_image(int width, int height, std::uint32_t seed, bool misses = false);
+// Whether two images have one shape and the same bits.
+bool same_bits(const Image&, const Image&);
 
 }  // namespace quell::test

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <stdexcept>
 
 namespace quell::test {
@@ -106,14 +105,6 @@ Image read_channels(const std::string& path, const std::vector<std::string>& cha
       std::copy_n(plane.data() + std::size_t(y) * std::size_t(spec.width), spec.width, image.row(int(i), y));
   }
   return image;
-}
-
-bool same_bits(const Image& a, const Image& b) {
-  if (a.width() != b.width() || a.height() != b.height() || a.channels() != b.channels()) return false;
-  for (int c = 0; c < a.channels(); ++c)
-    for (int y = 0; y < a.height(); ++y)
-      if (std::memcmp(a.row(c, y), b.row(c, y), std::size_t(a.width()) * sizeof(float))) return false;
-  return true;
 }
 
 }  // namespace quell::test

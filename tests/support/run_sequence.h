@@ -37,6 +37,4 @@ std::string test_data();
 // One image of channels of a file, as they are.
 Image read_channels(const std::string& path, const std::vector<std::string>& channels);
 
-bool same_bits(const Image&, const Image&);
-
 }  // namespace quell::test

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace quell::test {
 
@@ -112,13 +111,6 @@ double largest_difference(const Image& image, const std::function<double(int, in
         if (std::isnan(difference)) return difference;
       }
   return largest;
-}
-
-bool same_bits(const Image& a, const Image& b) {
-  for (int c = 0; c < a.channels(); ++c)
-    for (int y = 0; y < a.height(); ++y)
-      if (std::memcmp(a.row(c, y), b.row(c, y), std::size_t(a.width()) * sizeof(float)) != 0) return false;
-  return true;
 }
 
 }  // namespace quell::test

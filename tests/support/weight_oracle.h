@@ -34,7 +34,5 @@ struct FilterOracle {
 
 // Largest difference between an image and a formula of (channel, x, y).
 double largest_difference(const Image&, const std::function<double(int channel, int x, int y)>&);
-// Whether two images hold the same bits.
-bool same_bits(const Image&, const Image&);
 
 }  // namespace quell::test
