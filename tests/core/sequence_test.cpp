@@ -1,4 +1,5 @@
-// Sequences of files: which frames there are, what their roles read as, and what happens when files are missing or change.
+// Sequences of files: which frames there are, what their roles read as, and what happens when files are missing or
+// change.
 #include "core/sequence/sequence.h"
 
 #include "core/image/image.h"
@@ -40,7 +41,8 @@ class SequenceTest : public testing::Test {
     write_planes(name, width, height, channels, planes);
   }
   // An image with channels by these names (their values are of no meaning here) and the planes' values.
-  void write_planes(const std::string& name, int width, int height, const Channels& channels, const std::vector<std::vector<float>>& planes) {
+  void write_planes(const std::string& name, int width, int height, const Channels& channels,
+                    const std::vector<std::vector<float>>& planes) {
     OIIO::ImageSpec spec(width, height, int(channels.size()), OIIO::TypeDesc::FLOAT);
     spec.channelnames.clear();
     for (const auto& [channel, value] : channels) spec.channelnames.push_back(channel);
@@ -106,7 +108,8 @@ TEST_F(SequenceTest, FindsItsFramesOnTheDisk) {
 
 TEST_F(SequenceTest, CutsAreDeclaredOrGaps) {
   for (int i = 1; i <= 8; ++i) write("c_" + std::to_string(i) + ".exr", 2, 2, kColor);
-  const auto source = open(load(R"({"quell_sequence": 1, "frames": "1-3,5-8", "cuts": [7], "inputs": {"color": "c_@.exr"}})"));
+  const auto source =
+      open(load(R"({"quell_sequence": 1, "frames": "1-3,5-8", "cuts": [7], "inputs": {"color": "c_@.exr"}})"));
   Frames cuts;
   for (const auto frame : source->frames())
     if (source->cut_before(frame)) cuts.push_back(frame);
@@ -120,13 +123,16 @@ TEST_F(SequenceTest, CutsAreDeclaredOrGaps) {
 TEST_F(SequenceTest, TheCommandLineChoosesFramesAndRoot) {
   std::filesystem::create_directory(path("elsewhere"));
   for (int i = 0; i < 4; ++i) write("elsewhere/c_" + std::to_string(i) + ".exr", 2, 2, kColor);
-  std::ofstream(path("s.json")) << R"({"quell_sequence": 1, "root": "nowhere", "frames": "0-3", "inputs": {"color": "c_@.exr"}})";
+  std::ofstream(path("s.json"))
+      << R"({"quell_sequence": 1, "root": "nowhere", "frames": "0-3", "inputs": {"color": "c_@.exr"}})";
   Diagnostics diagnostics;
   const auto sequence = load_sequence({path("s.json"), "2-3", path("elsewhere"), profiles()}, diagnostics);
   ASSERT_TRUE(sequence) << diagnostics.format();
   EXPECT_EQ(open(*sequence)->frames(), (Frames{2, 3}));
   EXPECT_FALSE(load_sequence({path("s.json"), "2-", {}, profiles()}, diagnostics));
-  EXPECT_EQ(diagnostics.format(), "--frames: error: '2-' is no frame range: write a frame, first-last or first-lastxstep, with commas between\n");
+  EXPECT_EQ(
+      diagnostics.format(),
+      "--frames: error: '2-' is no frame range: write a frame, first-last or first-lastxstep, with commas between\n");
 }
 
 TEST_F(SequenceTest, NamesAMissingFrameAndItsFile) {
@@ -141,9 +147,11 @@ TEST_F(SequenceTest, NamesAMissingFrameAndItsFile) {
 }
 
 TEST_F(SequenceTest, GoesOnWithoutMissingFrames) {
-  for (const int i : {0, 1, 3, 4}) write("c_" + std::to_string(i) + ".exr", 2, 2, {{"R", float(i)}, {"G", 0}, {"B", 0}});
+  for (const int i : {0, 1, 3, 4})
+    write("c_" + std::to_string(i) + ".exr", 2, 2, {{"R", float(i)}, {"G", 0}, {"B", 0}});
   for (int i = 0; i < 5; ++i) write("z_" + std::to_string(i) + ".exr", 2, 2, {{"Z", 10.0f + float(i)}});
-  const auto sequence = load(R"({"quell_sequence": 1, "frames": "0-4", "inputs": {"color": "c_@.exr", "depth": "z_@.exr"}})");
+  const auto sequence =
+      load(R"({"quell_sequence": 1, "frames": "0-4", "inputs": {"color": "c_@.exr", "depth": "z_@.exr"}})");
 
   const auto skip = open(sequence, Missing::skip);
   EXPECT_EQ(skip->frames(), (Frames{0, 1, 3, 4}));
@@ -172,10 +180,12 @@ TEST_F(SequenceTest, GoesOnWithoutMissingFrames) {
 TEST_F(SequenceTest, NamesChannelsThatAreNotThere) {
   write("c_0.exr", 2, 2, {{"Layer.Deep.Z", 1}, {"Layer.Depth.Z", 1}, {"R", 1}});
   const auto text = failure([&] {
-    open(load(R"({"quell_sequence": 1, "inputs": {"depth": {"file": "c_@.exr", "channels": ["Layer.Depht.Z"]}, "color": "c_@.exr"}})"));
+    open(load(
+        R"({"quell_sequence": 1, "inputs": {"depth": {"file": "c_@.exr", "channels": ["Layer.Depht.Z"]}, "color": "c_@.exr"}})"));
   });
   EXPECT_EQ(text, path("sequence.json") + ":1:75: error: inputs.depth: '" + path("c_0.exr") +
-                      "' has no channel 'Layer.Depht.Z'\n  it has: R, Layer.Deep.Z, Layer.Depth.Z. Did you mean 'Layer.Depth.Z'?\n" +
+                      "' has no channel 'Layer.Depht.Z'\n  it has: R, Layer.Deep.Z, Layer.Depth.Z. Did you mean "
+                      "'Layer.Depth.Z'?\n" +
                       path("sequence.json") + ":1:104: error: inputs.color: '" + path("c_0.exr") +
                       "' has no channels by the usual names of radiance\n  usual names: R G B, r g b\n"
                       "  it has: R, Layer.Deep.Z, Layer.Depth.Z\n  name them with \"channels\"\n");
@@ -188,8 +198,10 @@ TEST_F(SequenceTest, NamesAFrameThatCannotBeRead) {
   std::filesystem::resize_file(path("c_2.exr"), std::filesystem::file_size(path("c_2.exr")) - 9);
   const auto source = open(load(R"({"quell_sequence": 1, "frames": "0-2", "inputs": {"color": "c_@.exr"}})"));
   EXPECT_EQ(failure([&] { read(*source, 1, "color"); }),
-            "frame 1: " + path("c_1.exr") + ": has no channel 'B', unlike the first frame\n  it has: R, G, b. Did you mean 'b'?");
-  EXPECT_TRUE(failure([&] { read(*source, 2, "color"); }).starts_with("frame 2: " + path("c_2.exr") + ": cannot be read: "));
+            "frame 1: " + path("c_1.exr") +
+                ": has no channel 'B', unlike the first frame\n  it has: R, G, b. Did you mean 'b'?");
+  EXPECT_TRUE(
+      failure([&] { read(*source, 2, "color"); }).starts_with("frame 2: " + path("c_2.exr") + ": cannot be read: "));
   EXPECT_EQ(read(*source, 0, "color").at(1, 39, 29), 2.0f);
 }
 
@@ -205,7 +217,8 @@ TEST_F(SequenceTest, SaysWhatShapeEachFrameHas) {
 }
 
 TEST_F(SequenceTest, RepairsRadianceAndCounts) {
-  const std::vector<std::vector<float>> planes = {{1, kNaN, kInf, -1, -kInf, 1e9f}, {2, 5, 1, 3, 1, 1}, {3, 6, 1, -0.5f, 1, 1}};
+  const std::vector<std::vector<float>> planes = {
+      {1, kNaN, kInf, -1, -kInf, 1e9f}, {2, 5, 1, 3, 1, 1}, {3, 6, 1, -0.5f, 1, 1}};
   write_planes("c_0.exr", 6, 1, kColor, planes);
   const auto source = open(load(R"({"quell_sequence": 1, "inputs": {"color": "c_@.exr"}})"));
   const Image image = read(*source, 0, "color");
@@ -214,6 +227,62 @@ TEST_F(SequenceTest, RepairsRadianceAndCounts) {
     for (int x = 0; x < 6; ++x) EXPECT_EQ(image.at(c, x, 0), expected[c][x]) << c << ' ' << x;
   EXPECT_EQ(source->repairs().at("color").non_finite, 3);
   EXPECT_EQ(source->repairs().at("color").negative, 1);
+}
+
+TEST_F(SequenceTest, FillsWhatTheDataWindowLeavesOpen) {
+  OIIO::ImageSpec spec(2, 1, 5, OIIO::TypeDesc::FLOAT);
+  spec.channelnames = {"R", "G", "B", "Z", "id"};
+  spec.x = 1, spec.y = 1, spec.full_width = 4, spec.full_height = 3;
+  const std::vector<float> pixels = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+  auto out = OIIO::ImageOutput::create("openexr");
+  ASSERT_TRUE(out->open(path("w_0.exr"), spec) && out->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) &&
+              out->close());
+  const auto source =
+      open(load(R"({"quell_sequence": 1, "inputs": {"color": "w_@.exr", "depth": {"file": "w_@.exr", "channels": ["Z"]},
+                                    "id": {"file": "w_@.exr", "channels": ["id"]}}})"));
+  const std::vector<std::string> roles = {"id", "color", "depth"};
+  std::vector<Image> images;
+  std::vector<quell_image> views;
+  for (const auto& shape : source->shapes(0, roles)) images.emplace_back(shape).fill(kNaN);
+  for (const auto& image : images) views.push_back(image.view());
+  source->read(0, roles, views);
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 4; ++x) {
+      const bool in = y == 1 && (x == 1 || x == 2);
+      const float first = float(5 * (x - 1));
+      EXPECT_EQ(images[0].bits(0, y)[x], in ? std::uint32_t(first) + 5 : kNoId) << x << ' ' << y;
+      for (int c = 0; c < 3; ++c) EXPECT_EQ(images[1].at(c, x, y), in ? first + 1 + float(c) : 0.0f) << x << ' ' << y;
+      EXPECT_EQ(images[2].at(0, x, y), in ? first + 4 : kFar) << x << ' ' << y;
+    }
+}
+
+TEST_F(SequenceTest, MakesEncodedColorsLinear) {
+  const std::vector<std::uint8_t> pixels = {0, 188, 255};
+  auto out = OIIO::ImageOutput::create("png");
+  ASSERT_TRUE(out->open(path("p_0.png"), OIIO::ImageSpec(1, 1, 3, OIIO::TypeDesc::UINT8)) &&
+              out->write_image(OIIO::TypeDesc::UINT8, pixels.data()) && out->close());
+  const auto source = open(load(R"({"quell_sequence": 1, "inputs": {"color": "p_@.png", "display": "p_@.png"}})"));
+  const Image color = read(*source, 0, "color"), display = read(*source, 0, "display");
+  EXPECT_EQ(color.at(0, 0, 0), 0.0f);
+  EXPECT_NEAR(color.at(1, 0, 0), 0.5029, 1e-4);  // IEC 61966-2-1: ((188/255 + 0.055)/1.055)^2.4
+  EXPECT_EQ(color.at(2, 0, 0), 1.0f);
+  EXPECT_FLOAT_EQ(display.at(1, 0, 0), 188.0f / 255);
+}
+
+// OpenEXR's parts share a display window; pages of other formats need not.
+TEST_F(SequenceTest, RefusesChannelsOfUnlikeParts) {
+  const std::vector<float> pixels(6);
+  auto out = OIIO::ImageOutput::create("tiff");
+  ASSERT_TRUE(out->open(path("u_0.tif"), OIIO::ImageSpec(2, 2, 1, OIIO::TypeDesc::FLOAT)) &&
+              out->write_image(OIIO::TypeDesc::FLOAT, pixels.data()));
+  ASSERT_TRUE(
+      out->open(path("u_0.tif"), OIIO::ImageSpec(3, 2, 1, OIIO::TypeDesc::FLOAT), OIIO::ImageOutput::AppendSubimage) &&
+      out->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) && out->close());
+  const auto source =
+      open(load(R"({"quell_sequence": 1, "inputs": {"motion": {"file": "u_@.tif", "channels": ["0.Y", "1.Y"]}}})"));
+  EXPECT_EQ(
+      failure([&] { read(*source, 0, "motion"); }),
+      "frame 0: " + path("u_0.tif") + ": channels '0.Y' and '1.Y' have display windows of 2 x 2 and 3 x 2 pixels");
 }
 
 TEST_F(SequenceTest, TurnsEveryMissOfDepthIntoFar) {
@@ -251,7 +320,8 @@ TEST_F(SequenceTest, ConvertsNormals) {
 
   const float none = 127.0f / 255;  // the nearest that eight bits come to no direction
   write_planes("e_0.exr", 2, 1, {{"X", 0}, {"Y", 0}, {"Z", 0}}, {{0.5f, none}, {0.5f, none}, {1, none}});
-  image = read(*open(load(R"({"quell_sequence": 1, "inputs": {"normal": {"file": "e_@.exr", "encoded": true}}})")), 0, "normal");
+  image = read(*open(load(R"({"quell_sequence": 1, "inputs": {"normal": {"file": "e_@.exr", "encoded": true}}})")), 0,
+               "normal");
   EXPECT_EQ(image.at(2, 0, 0), 1.0f);
   for (int c = 0; c < 3; ++c) EXPECT_EQ(image.at(c, 1, 0), 0.0f);
 }
@@ -274,7 +344,9 @@ void write_camera(const std::string& file) {
       for (int k = 0; k < 4; ++k) screen[4 * r + c] += pinhole[4 * r + k] * view[4 * k + c];
   const std::int32_t n = 0;
   std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(&n), 4).write(reinterpret_cast<const char*>(view), 64).write(reinterpret_cast<const char*>(screen), 64);
+  out.write(reinterpret_cast<const char*>(&n), 4)
+      .write(reinterpret_cast<const char*>(view), 64)
+      .write(reinterpret_cast<const char*>(screen), 64);
 }
 
 TEST_F(SequenceTest, TurnsDistanceIntoDepth) {
@@ -282,15 +354,15 @@ TEST_F(SequenceTest, TurnsDistanceIntoDepth) {
   const int width = 16, height = 12;
   std::vector<float> distance;
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) distance.push_back(float(5 * std::hypot((x + 0.5 - 8) / 10, (y + 0.5 - 6) / 10, 1.0)));
+    for (int x = 0; x < width; ++x)
+      distance.push_back(float(5 * std::hypot((x + 0.5 - 8) / 10, (y + 0.5 - 6) / 10, 1.0)));
   distance[0] = kInf;
   write_planes("d_0.exr", width, height, {{"Z", 0}}, {distance});
   const auto sequence = load(R"({"quell_sequence": 1, "inputs": {"depth": {"file": "d_@.exr", "distance": true},
                                  "camera": {"file": "m_@.mat", "format": "games202"}}})");
   const Image image = read(*open(sequence, Missing::error, {"depth"}), 0, "depth");
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      ASSERT_NEAR(image.at(0, x, y), x + y > 0 ? 5.0f : kFar, 1e-5f) << x << ' ' << y;
+    for (int x = 0; x < width; ++x) ASSERT_NEAR(image.at(0, x, y), x + y > 0 ? 5.0f : kFar, 1e-5f) << x << ' ' << y;
 }
 
 TEST_F(SequenceTest, TakesCameraSpaceToTheWorld) {
@@ -326,13 +398,15 @@ TEST_F(SequenceTest, ReadsMatrices) {
   EXPECT_EQ(transforms.height(), 1);  // no object: one identity
   EXPECT_EQ(transforms.at(0, 5, 0), 1.0f);
   std::filesystem::resize_file(path("m_0.mat"), 131);
-  const auto broken = open(load(R"({"quell_sequence": 1, "inputs": {"transforms": {"file": "m_@.mat", "format": "games202"}}})"));
+  const auto broken =
+      open(load(R"({"quell_sequence": 1, "inputs": {"transforms": {"file": "m_@.mat", "format": "games202"}}})"));
   EXPECT_EQ(failure([&] { read(*broken, 0, "transforms"); }),
             "frame 0: " + path("m_0.mat") + ": has 131 bytes in place of the 132 that 0 objects and a camera take");
 }
 
 TEST_F(SequenceTest, ExposesSourceNodes) {
-  const auto sequence = load(R"({"quell_sequence": 1, "frames": "0-2", "source": {"type": "room", "set": {"spp": 2}}})");
+  const auto sequence =
+      load(R"({"quell_sequence": 1, "frames": "0-2", "source": {"type": "room", "set": {"spp": 2}}})");
   ASSERT_TRUE(sequence.source);
   EXPECT_EQ(sequence.source->type, "room");
   ASSERT_TRUE(sequence.source->set);
@@ -356,7 +430,8 @@ TEST_F(SequenceTest, TheBuiltInSequencesHaveSourcesForFramesAndReference) {
 
 TEST_F(SequenceTest, ReadsReferencesWhereThereAreSome) {
   for (int i = 0; i < 4; ++i) write("c_" + std::to_string(i) + ".exr", 2, 2, kColor);
-  for (const char* half : {"a", "b"}) write("ref_2_" + std::string(half) + ".exr", 2, 2, {{"R", 7}, {"G", 8}, {"B", 9}});
+  for (const char* half : {"a", "b"})
+    write("ref_2_" + std::string(half) + ".exr", 2, 2, {{"R", 7}, {"G", 8}, {"B", 9}});
   const auto source = open(load(R"({"quell_sequence": 1, "inputs": {"color": "c_@.exr"},
                                     "reference": {"A": "ref_@_a.exr", "B": "ref_@_b.exr"}})"));
   EXPECT_EQ(source->reference_frames(), Frames{2});
@@ -367,24 +442,32 @@ TEST_F(SequenceTest, ReadsReferencesWhereThereAreSome) {
 TEST_F(SequenceTest, RecognisesALoneImage) {
   for (int i = 1; i <= 2; ++i) {
     write("r." + std::string("000") + std::to_string(i) + ".exr", 3, 2,
-          {{"View Layer.Combined.R", 1}, {"View Layer.Combined.G", 2}, {"View Layer.Combined.B", 3}, {"View Layer.Depth.Z", 1e10f},
-           {"View Layer.Vector.X", 5}, {"View Layer.Vector.Y", 6}, {"View Layer.Denoising Normal.X", 1},
-           {"View Layer.Denoising Normal.Y", 0}, {"View Layer.Denoising Normal.Z", 0}});
+          {{"View Layer.Combined.R", 1},
+           {"View Layer.Combined.G", 2},
+           {"View Layer.Combined.B", 3},
+           {"View Layer.Depth.Z", 1e10f},
+           {"View Layer.Vector.X", 5},
+           {"View Layer.Vector.Y", 6},
+           {"View Layer.Denoising Normal.X", 1},
+           {"View Layer.Denoising Normal.Y", 0},
+           {"View Layer.Denoising Normal.Z", 0}});
   }
   const auto source = open(load_path(path("r.####.exr")));
   EXPECT_EQ(source->frames(), (Frames{1, 2}));
   // The normal is in camera space, and there is no camera.
-  EXPECT_EQ(source->roles(), (std::map<std::string, int>{{"color", QUELL_RADIANCE}, {"depth", QUELL_DEPTH}, {"motion", QUELL_MOTION}}));
+  EXPECT_EQ(source->roles(),
+            (std::map<std::string, int>{{"color", QUELL_RADIANCE}, {"depth", QUELL_DEPTH}, {"motion", QUELL_MOTION}}));
   EXPECT_EQ(read(*source, 1, "motion").at(1, 0, 0), -6.0f);
   EXPECT_EQ(read(*source, 1, "depth").at(0, 0, 0), kFar);
 }
 
 TEST_F(SequenceTest, ListsWhatAnUnknownImageHas) {
   write("r.0001.exr", 3, 2, {{"left.one", 1}, {"left.two", 1}});
-  EXPECT_EQ(failure([&] { load_path(path("r.####.exr")); }),
-            "error: no profile knows the channels of '" + path("r.0001.exr") +
-                "'\n  it has: left.one, left.two\n  profiles tried: bmfr, cycles, falcor, games202, mitsuba, pbrt, plain\n"
-                "  a sequence file can say which channel plays which role\n");
+  EXPECT_EQ(
+      failure([&] { load_path(path("r.####.exr")); }),
+      "error: no profile knows the channels of '" + path("r.0001.exr") +
+          "'\n  it has: left.one, left.two\n  profiles tried: bmfr, cycles, falcor, games202, mitsuba, pbrt, plain\n"
+          "  a sequence file can say which channel plays which role\n");
   EXPECT_EQ(failure([&] { load_path(path("none.####.exr")); }), "no file is called '" + path("none.####.exr") + "'");
 }
 
@@ -395,13 +478,16 @@ TEST_F(SequenceTest, RecognisesAFolder) {
   }
   const auto source = open(load_path(scratch_.folder()));
   EXPECT_EQ(source->frames(), (Frames{0, 1}));
-  EXPECT_EQ(source->roles(), (std::map<std::string, int>{{"camera", QUELL_CAMERA}, {"color", QUELL_RADIANCE}, {"transforms", QUELL_TRANSFORMS}}));
+  EXPECT_EQ(source->roles(),
+            (std::map<std::string, int>{
+                {"camera", QUELL_CAMERA}, {"color", QUELL_RADIANCE}, {"transforms", QUELL_TRANSFORMS}}));
 }
 
 TEST_F(SequenceTest, LaysADocumentOverAProfile) {
   write("mvec.0.exr", 8, 4, {{"R", 0.25f}, {"G", 0.5f}});
   const auto value = [&](const std::string& keys) {
-    const auto source = open(load(R"({"quell_sequence": 1, "profile": "falcor", "inputs": {"motion": {"file": "mvec.@.exr")" + keys + "}}}"));
+    const auto source = open(load(
+        R"({"quell_sequence": 1, "profile": "falcor", "inputs": {"motion": {"file": "mvec.@.exr")" + keys + "}}}"));
     return read(*source, 0, "motion").at(0, 0, 0);
   };
   EXPECT_EQ(value(""), 2.0f);  // Falcor's fractions of the width
