@@ -74,6 +74,8 @@ class Commander {
 // Each adds its subcommand, which sets `exit` when it has run.
 void add_run(CLI::App&, int& exit);
 void add_check(CLI::App&, int& exit);
+void add_nodes(CLI::App&, int& exit);
+void add_graph(CLI::App&, int& exit);
 void add_plan(CLI::App&, int& exit);
 
 }  // namespace quell

@@ -23,6 +23,8 @@ int run(int argc, char** argv) {
   int exit = 0;
   quell::add_run(app, exit);
   quell::add_check(app, exit);
+  quell::add_nodes(app, exit);
+  quell::add_graph(app, exit);
   quell::add_plan(app, exit);
 
   std::vector<std::string> commands;

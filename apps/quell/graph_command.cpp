@@ -1,0 +1,43 @@
+// quell graph: draws a graph.
+#include "apps/quell/command.h"
+
+#include "core/graph/draw.h"
+
+#include <fmt/format.h>
+
+namespace quell {
+
+namespace {
+
+struct GraphArguments {
+  PluginOptions plugins;
+  GraphOptions graph;
+  std::string format = "dot";
+};
+
+int draw(const GraphArguments& a) {
+  Commander commander(a.plugins);
+  const auto graph = commander.load(a.graph, nullptr);
+  const int code = commander.report();
+  if (!graph) return code;
+  fmt::print("{}", a.format == "svg"       ? draw_svg(*graph)
+                   : a.format == "mermaid" ? draw_mermaid(*graph)
+                                           : draw_dot(*graph));
+  return code;
+}
+
+}  // namespace
+
+void add_graph(CLI::App& app, int& exit) {
+  auto* sub = app.add_subcommand("graph", "Draws a graph, with its subgraphs expanded.");
+  auto a = std::make_shared<GraphArguments>();
+  a->graph.add_to(*sub);
+  sub->add_option("--format", a->format, "dot, mermaid or svg.")
+      ->check(CLI::IsMember({"dot", "mermaid", "svg"}))
+      ->capture_default_str();
+  a->plugins.add_to(*sub);
+  sub->footer("Examples:\n  quell graph svgf --format svg > svgf.svg\n  quell graph svgf | dot -Tpdf > svgf.pdf");
+  sub->callback([a, &exit] { exit = draw(*a); });
+}
+
+}  // namespace quell
