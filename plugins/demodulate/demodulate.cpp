@@ -15,8 +15,8 @@ struct Demodulate {
   void describe(quell::Describe& d) {
     d.summary("Divides albedo out of radiance. `modulate` with the same parameters is its exact inverse.");
     d.source(
-        "Schied et al. 2017, Spatiotemporal Variance-Guided Filtering, section 4.1. Mode clip is our own: dividing and "
-        "multiplying by one clipped albedo keeps the light of neighbours comparable, worth 1.9 to 4 dB.");
+        "Schied et al. 2017, Spatiotemporal Variance-Guided Filtering. Mode clip is our own: one clipped albedo keeps "
+        "the light of neighbours comparable, worth 1.3 dB on a Cycles Cornell room at 1 spp.");
     d.in(image, "image", "Radiance.");
     d.in(albedo, "albedo", "Albedo; above 1 counts as 1 in mode clip.");
     d.out(irradiance, "image", "Radiance over clipped albedo.").passes(image);

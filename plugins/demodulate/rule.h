@@ -17,8 +17,8 @@ struct Rule {
   void describe(Describe& d) {
     d.param(mode, "mode",
             "clip: divides by albedo clipped to [floor, 1]. classic: divides by max(albedo, 0.001), and not at all "
-            "where all "
-            "three channels are below 0.001 or one is above 1, which mixes both kinds of light between neighbours.",
+            "where all three channels are below 0.001 or one is above 1, which mixes both kinds of light between "
+            "neighbours.",
             {"clip", "classic"});
     d.param(floor, "floor", "Smallest divisor of mode clip.").range(1e-4, 1);
   }

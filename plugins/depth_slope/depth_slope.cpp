@@ -12,8 +12,7 @@ struct DepthSlope {
   void describe(quell::Describe& d) {
     d.summary(
         "Slope of depth, per pixel: the central difference inside a surface; beside a miss, an edge or a crease the "
-        "smaller "
-        "one-sided one; 0 at a miss.");
+        "smaller one-sided one; 0 at a miss.");
     d.source(
         "Schied et al. 2017, Spatiotemporal Variance-Guided Filtering, section 4.4: the gradient in the depth weight.");
     d.in(depth, "depth", "Depth; 1e30 is a miss.").halo(1);

@@ -28,15 +28,13 @@ struct Disocclusion {
         "wired.");
     d.source(
         "Schied et al. 2017, Spatiotemporal Variance-Guided Filtering, section 4.1. Tolerances after Falcor's SVGF "
-        "pass. "
-        "GAMES202 homework 5: mode nearest, id alone, no fallback.");
+        "pass. GAMES202 homework 5: mode nearest, id alone, no fallback.");
     d.in(motion, "motion", "Pixels, previous − current. A position outside the image is disoccluded.");
     d.in(slope, "slope", "Slope of depth now; without it, 0.").optional();
     d.in(depth, "depth", "Depth now.").optional();
     d.in(depth_before, "depth_before",
          "Depth one frame earlier, as seen by that frame's camera. It is compared with depth as it is, so "
-         "depth_tolerance must "
-         "cover how far the camera moves along its axis within a frame.")
+         "depth_tolerance must cover how far the camera moves along its axis within a frame.")
         .optional()
         .anywhere();
     d.in(normal, "normal", "Normal now; (0,0,0) is a miss, which agrees with misses alone.").optional();
@@ -45,15 +43,13 @@ struct Disocclusion {
     d.in(id_before, "id_before", "Object one frame earlier.").optional().anywhere();
     d.out(taps, "taps",
           "Bilinear weights of the valid ones of four taps, scaled to sum 1, all 0 where they hold less than 0.01; and "
-          "the mask "
-          "of valid pixels around them. All 0 where history is missing.");
+          "the mask of valid pixels around them. All 0 where history is missing.");
     d.param(mode, "mode",
             "bilinear: four taps, each tested. nearest: the pixel that holds the previous position, with weight 1.",
             {"bilinear", "nearest"});
     d.param(fallback, "fallback",
             "Leave valid pixels of the 3×3 in the mask where no tap is valid, so that their mean is taken. If not, the "
-            "mask is 0 "
-            "there and the pixel starts anew.");
+            "mask is 0 there and the pixel starts anew.");
     d.param(depth_tolerance, "depth_tolerance",
             "Depths agree within depth_tolerance·(|slope x| + |slope y| + depth_floor·depth).")
         .range(0, 1e6);

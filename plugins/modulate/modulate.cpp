@@ -16,7 +16,7 @@ struct Modulate {
   void describe(quell::Describe& d) {
     d.summary(
         "Multiplies albedo into irradiance and adds emission. `demodulate` with the same parameters is its inverse.");
-    d.source("Schied et al. 2017, Spatiotemporal Variance-Guided Filtering, section 4.1.");
+    d.source("Schied et al. 2017, Spatiotemporal Variance-Guided Filtering.");
     d.in(image, "image", "Radiance over clipped albedo, as demodulate gives it.");
     d.in(albedo, "albedo", "The albedo that demodulate had.");
     d.in(emission, "emission", "Radiance to add: what split_emitters set aside.").optional();

@@ -105,8 +105,7 @@ struct MotionVectors {
   void describe(quell::Describe& d) {
     d.summary(
         "Motion from the matrices of cameras and rigid objects: each surface point goes back with its object and is "
-        "projected "
-        "by the previous camera; a miss lies at infinity and goes back with the camera's rotation.");
+        "projected by the previous camera; a miss lies at infinity and goes back with the camera's rotation.");
     d.source("GAMES202 lecture 12: screen = P(t−1)·V(t−1)·M(t−1)·M(t)⁻¹·position.");
     d.in(position, "position", "World position. Without it, it is rebuilt from depth.").optional();
     d.in(depth, "depth", "Depth; 1e30 is a miss. Needed where position is not connected.").optional();
@@ -119,8 +118,7 @@ struct MotionVectors {
     d.in(transforms_before, "transforms_before", "Those of the previous frame: a delayed wire.").optional().anywhere();
     d.out(motion, "motion",
           "Pixels, previous − current. 1e6, which leads out of any image, where the point was behind the camera, its "
-          "object has "
-          "no past matrix, or the previous camera is missing.");
+          "object has no past matrix, or the previous camera is missing.");
   }
 
   void shapes(const quell_spec& spec, quell_shape*) const {

@@ -34,8 +34,7 @@ struct OutlierClamp {
     d.param(k, "k", "Half-width of the accepted range, standard deviations.").range(0, 1e6);
     d.param(exclude_center, "exclude_center",
             "Leave the pixel itself out of the statistics. Within them, one outlier among N equal values lies at "
-            "√(N−1) sigma, "
-            "whatever its size (2.8 for 3×3, 6.9 for 7×7), so that a larger k never finds it.");
+            "√(N−1) sigma, whatever its size (2.8 for 3×3, 6.9 for 7×7), so that a larger k never finds it.");
     d.param(
         mode, "mode",
         "channel: each channel by itself, which may shift hue. luminance: RGB scaled as one by what luminance needs.",

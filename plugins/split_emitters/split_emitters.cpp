@@ -24,11 +24,10 @@ struct SplitEmitters {
   void describe(quell::Describe& d) {
     d.summary(
         "Sets aside the light that must enter no kernel: emitters and misses whole. `modulate` adds it back; in the "
-        "guides "
-        "that come out these pixels are misses, so no weight node lets them meet a surface.");
+        "guides that come out these pixels are misses, so no weight node lets them meet a surface.");
     d.source(
-        "Measured: filtering a lamp with its surroundings costs 6 dB in the first frames (Cycles Cornell room, 1 "
-        "spp).");
+        "Our own. Measured on a Cycles Cornell room at 1 spp: a lamp filtered with its surroundings costs 6 dB in "
+        "frame 4.");
     d.in(image, "image", "Noisy radiance.");
     d.in(albedo, "albedo",
          "Tells emitters where no emission is given: a channel above 1, and the radiance equal to the albedo within "

@@ -15,7 +15,7 @@ struct TemporalClamp {
   void describe(quell::Describe& d) {
     d.summary(
         "Clamps reprojected history, channel by channel, into mean ± k·sigma of the current frame around the pixel.");
-    d.source("GAMES202 lecture 13 and homework 5, temporal accumulation.");
+    d.source("GAMES202 homework 5, temporal accumulation.");
     d.in(history, "history", "Reprojected history.");
     d.in(current, "current", "This frame, filtered: the statistics of a noisy frame are too wide to catch anything.")
         .halo(radius);
