@@ -27,7 +27,8 @@ namespace oiio = OIIO;
 constexpr std::int64_t kMostPixels = std::int64_t(1) << 28;
 constexpr std::int64_t kLongestSide = std::int64_t(1) << 17;
 constexpr std::int64_t kFarthestCorner = std::int64_t(1) << 24;  // so that sums of coordinates stay in range
-constexpr std::int64_t kMostTilePixels = std::int64_t(1) << 24;
+// OpenEXR unpacks a whole tile, with all its channels, however small the image is.
+constexpr std::int64_t kMostTileBytes = std::int64_t(1) << 28;
 constexpr int kMostChannels = 1024;
 constexpr int kMostParts = 256;
 // Unwanted channels between two wanted ones that cost less to read than a second call.
@@ -122,8 +123,9 @@ ImageFile::ImageFile(std::string path) : path_(std::move(path)), reader_(std::ma
       };
       check("data window", spec.x, spec.y, spec.width, spec.height);
       check("display window", spec.full_x, spec.full_y, spec.full_width, spec.full_height);
-      if (std::int64_t(spec.tile_width) * spec.tile_height > kMostTilePixels)
-        refuse(fmt::format("{}tiles of {} x {} pixels are not read", where, spec.tile_width, spec.tile_height));
+      if (double(spec.tile_width) * spec.tile_height * double(spec.pixel_bytes(true)) > double(kMostTileBytes))
+        refuse(fmt::format("{}tiles of {} x {} pixels with {} channels are not read", where, spec.tile_width,
+                           spec.tile_height, spec.nchannels));
       if (spec.nchannels < 1 || spec.nchannels > kMostChannels)
         refuse(fmt::format("{}{} channels are not read; 1 to {} are", where, spec.nchannels, kMostChannels));
       Part p;
