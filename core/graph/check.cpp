@@ -31,14 +31,18 @@ class Checker {
   void run() {
     for (const auto& a : net_.aliases)
       if (a.type)
-        for (const auto& l : a.links) link(l, a.type, a.name, a.name.substr(a.name.rfind('.') + 1));
+        for (const auto& l : a.links) link(l, a.type, input_path(a.name), a.name.substr(a.name.rfind('.') + 1));
     if (!faults_.ok()) return;  // what is wrong at a subgraph's boundary would be said again for each reader within
     for (auto& n : net_.nodes)
       if (!n.spec->bypass) node(n);
+    if (faults_.ok()) untold();
     for (const auto& o : net_.outputs) output(o);
   }
 
  private:
+  // Input "level0.image" is "level0.in.image" in messages.
+  static std::string input_path(std::string name) { return name.insert(name.rfind('.'), ".in"); }
+
   // The link is sound in itself and gives `wanted`.
   bool link(const Link& l, int wanted, const std::string& path, std::string_view reader) {
     const int own = net_.type_of(l.from);
@@ -78,6 +82,7 @@ class Checker {
   void node(NetNode& n) {
     if (n.spec->swapped) refit(n);
     int variable = 0;
+    bool told = false;
     std::string by;
     for (std::size_t p = 0; p < n.in.size(); ++p) {
       const auto& port = n.type->inputs()[p];
@@ -89,10 +94,20 @@ class Checker {
         if (port.type != QUELL_ANY)
           link(l, port.type, path, port.name);
         else
-          any(n, port.name, l, path, variable, by);
+          any(n, port.name, l, path, variable, by), told = true;
       }
-      if (n.in[p].links.empty() && !(port.flags & (QUELL_OPTIONAL | QUELL_LIST))) missing(n, p);
+      if (n.in[p].links.empty() && !(port.flags & (QUELL_OPTIONAL | QUELL_LIST))) missing(n, p), told = true;
     }
+    if (!told) unbound(n);
+  }
+
+  // All of a node's inputs of type any may be optional.
+  void unbound(const NetNode& n) {
+    for (std::size_t o = 0; o < n.out_types.size(); ++o)
+      if (n.out_types[o] == 0)
+        faults_.error(n.spec->position, n.name,
+                      fmt::format("nothing tells the type of its output '{}'", n.type->outputs()[o].name),
+                      {"connect one of its inputs of type any"});
   }
 
   void any(const NetNode& n, std::string_view port, const Link& l, const std::string& path, int& variable,
@@ -100,9 +115,7 @@ class Checker {
     const int type = net_.type_of(l);
     const std::string name = net_.name_of(l.from);
     if (type == 0) {
-      faults_.error(
-          l.position, path, fmt::format("nothing tells the type of '{}'", name),
-          {"every wire into it comes from itself; one must come from a node or input of known type, or say \"as\""});
+      untold_.push_back({l, path});
       return;
     }
     if (!float_image(type)) {
@@ -116,6 +129,14 @@ class Checker {
       faults_.error(l.position, path,
                     fmt::format("'{}' is {}, but '{}' of '{}' is {}, and both must have one type", name,
                                 type_name(type), by, n.name, type_name(variable)));
+  }
+
+  // Said only where nothing else is wrong, for that may be why.
+  void untold() {
+    for (const auto& [link, path] : untold_)
+      faults_.error(
+          link.position, path, fmt::format("nothing tells the type of '{}'", net_.name_of(link.from)),
+          {"every wire into it comes from itself; one must come from a node or input of known type, or say \"as\""});
   }
 
   void missing(const NetNode& n, std::size_t p) {
@@ -164,18 +185,24 @@ class Checker {
     }
     const auto& l = o.links[0];
     const int type = net_.type_of(l);
-    if (type == 0)
-      faults_.error(o.position, path, fmt::format("nothing tells the type of '{}'", net_.name_of(l.from)));
-    else if (type == QUELL_WEIGHT)
+    if (type == 0) return;  // which has been said of the node
+    if (type == QUELL_WEIGHT)
       faults_.error(l.position, path,
                     fmt::format("'{}' is a weight; there is no image to write", net_.name_of(l.from)));
     else
       link(l, type, path, o.name);
   }
 
+  // A wire whose type is not known.
+  struct Untold {
+    Link link;
+    std::string path;
+  };
+
   Net& net_;
   const std::optional<Roles>& roles_;
   Faults& faults_;
+  std::vector<Untold> untold_;
 };
 
 }  // namespace

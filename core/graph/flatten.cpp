@@ -155,7 +155,7 @@ void drop_absent(Net& net) {
     for (std::size_t o = 0; o < node.type->outputs().size(); ++o) {
       if (node.type->outputs()[o].with != port) continue;
       const Target gone{Target::Kind::node, index, int(o)};
-      const auto reason = fmt::format("'{}' exists only when '{}' is connected", net.name_of(gone),
+      const auto reason = fmt::format("output '{}' exists only when input '{}' is connected", net.name_of(gone),
                                       node.name + "." + node.type->inputs()[std::size_t(port)].name);
       const auto drop = [&](std::vector<Link>& links, std::string& absent) {
         for (auto& l : links)

@@ -34,10 +34,9 @@ ParamProblem assign_path(Instance& instance, int param, const Json& value, bool 
     file = value.text;
   }
   std::error_code error;
-  file = fs::absolute(file, error).lexically_normal();
   if (!fs::exists(file, error))
-    return {fmt::format("there is no file {}", value.shown()), {fmt::format("looked for {}", file.string())}};
-  instance.set_text(param, file.string());
+    return {fmt::format("there is no file {}", value.shown()), {fmt::format("looked for {}", file.generic_string())}};
+  instance.set_text(param, fs::absolute(file, error).lexically_normal().string());
   return {};
 }
 

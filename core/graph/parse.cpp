@@ -232,7 +232,9 @@ class Parser {
       const auto* info = as->is(Json::Kind::text) ? type_info(std::string_view(as->text)) : nullptr;
       if (!info) {
         auto names = type_names();
-        faults_.error(as->position, path + ".as", fmt::format("there is no type {}", as->shown()),
+        faults_.error(as->position, path + ".as",
+                      as->is(Json::Kind::text) ? fmt::format("there is no type '{}'", as->text)
+                                               : fmt::format("a type must be text, not {}", shown(*as)),
                       {fmt::format("types: {}", fmt::join(names, ", ")), meant(as->text, names)});
         return std::nullopt;
       }

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace quell {
 
@@ -71,8 +72,10 @@ class Resolver {
     n.scope = e.scope;
     n.spec = e.spec;
     n.type = registry_.find(e.spec->type);
-    if (!n.type) return unknown(n);
-    n.instance.emplace(*n.type);
+    if (n.type)
+      n.instance.emplace(*n.type);
+    else
+      unknown(n);
     for (const auto& setting : e.spec->set) set(n, setting);
   }
 
@@ -92,7 +95,7 @@ class Resolver {
   void set(NetNode& n, const Setting& setting) {
     const std::string path = n.name + ".set." + setting.name;
     const auto value = expansion_.value_of(setting, n.scope, path, faults_);
-    if (!value) return;
+    if (!value || !n.type) return;
     const int p = n.type->find_param(setting.name);
     if (p < 0) {
       // A swapped node keeps what its new type has a parameter for.
@@ -238,8 +241,14 @@ class Resolver {
 
   void unused() {
     const Document& d = *expansion_.scopes[0].document;
+    // A change that sets a node otherwise leaves its parameter without use, and that is meant.
+    std::set<std::string_view> written;
+    for (const auto& n : d.nodes)
+      for (const auto& s : n.set)
+        if (s.value.is(Json::Kind::text) && s.value.text.starts_with("$"))
+          written.insert(std::string_view(s.value.text).substr(1));
     for (std::size_t i = 0; i < d.params.size(); ++i)
-      if (!expansion_.used_params.contains({&d, int(i)}))
+      if (!written.contains(d.params[i].name) && !expansion_.used_params.contains({&d, int(i)}))
         faults_.warning(d.params[i].position, "params." + d.params[i].name,
                         fmt::format("parameter '{}' feeds nothing", d.params[i].name),
                         {fmt::format("a node takes it with \"set\": {{ \"…\": \"${}\" }}", d.params[i].name)});

@@ -90,7 +90,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
 
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& e) override {
     const auto error = rephrase_syntax_error(text_, last_end_, opened_, e.what());
-    diagnostics_.error({source_, error.offset}, open_.empty() ? "" : path(), error.text, {error.note});
+    diagnostics_.error({source_, error.offset}, "", error.text, {error.note});
     return false;
   }
 

@@ -77,34 +77,33 @@ TEST(Json, TakesTopLevelValues) {
 
 TEST(Json, RephrasesSyntaxErrors) {
   EXPECT_EQ(error_of("{\"a\": 1,}"),
-            "t:1:9: error: a: expected a key in quotes, found '}'\n  no comma may follow the last member\n");
-  EXPECT_EQ(error_of("{\"a\" 1}"), "t:1:6: error: a: expected ':' after the key, found '1'\n");
-  EXPECT_EQ(error_of("{\"a\": 1\n \"b\": 2}"), "t:2:2: error: a: expected ',' or '}', found '\"b\"'\n");
-  EXPECT_EQ(error_of("[1 2]"), "t:1:4: error: [0]: expected ',' or ']', found '2'\n");
-  EXPECT_EQ(error_of("[1,]"), "t:1:4: error: [0]: expected a value, found ']'\n  no comma may follow the last item\n");
-  EXPECT_EQ(error_of("[,1]"), "t:1:2: error: [0]: expected a value, found ','\n");
-  EXPECT_EQ(error_of("{\"a\": }"), "t:1:7: error: a: expected a value, found '}'\n");
+            "t:1:9: error: expected a key in quotes, found '}'\n  no comma may follow the last member\n");
+  EXPECT_EQ(error_of("{\"a\" 1}"), "t:1:6: error: expected ':' after the key, found '1'\n");
+  EXPECT_EQ(error_of("{\"a\": 1\n \"b\": 2}"), "t:2:2: error: expected ',' or '}', found '\"b\"'\n");
+  EXPECT_EQ(error_of("[1 2]"), "t:1:4: error: expected ',' or ']', found '2'\n");
+  EXPECT_EQ(error_of("[1,]"), "t:1:4: error: expected a value, found ']'\n  no comma may follow the last item\n");
+  EXPECT_EQ(error_of("[,1]"), "t:1:2: error: expected a value, found ','\n");
+  EXPECT_EQ(error_of("{\"a\": }"), "t:1:7: error: expected a value, found '}'\n");
   EXPECT_EQ(error_of("{a: 1}"), "t:1:2: error: expected a key in quotes, found 'a'\n");
   EXPECT_EQ(error_of("{\"a\": yes}"),
-            "t:1:7: error: a: expected a value, found 'yes'\n"
+            "t:1:7: error: expected a value, found 'yes'\n"
             "  text stands in double quotes; the only words are true, false and null\n");
   EXPECT_EQ(error_of(""), "t:1:1: error: expected a value, found the end of the file\n");
-  EXPECT_EQ(error_of("{\"a\": 1"), "t:1:8: error: a: expected ',' or '}', found the end of the file\n");
+  EXPECT_EQ(error_of("{\"a\": 1"), "t:1:8: error: expected ',' or '}', found the end of the file\n");
   EXPECT_EQ(error_of("{} {}"), "t:1:4: error: expected the end of the file, found '{'\n");
-  EXPECT_EQ(error_of("{\"a\": \"x"), "t:1:7: error: a: the text has no closing quote\n");
+  EXPECT_EQ(error_of("{\"a\": \"x"), "t:1:7: error: the text has no closing quote\n");
   EXPECT_EQ(error_of("{\"a\": \"x\n\"}"),
-            "t:1:7: error: a: the text holds a line end or control character\n"
+            "t:1:7: error: the text holds a line end or control character\n"
             "  write \\n, \\t or \\u00XX within quotes; or is the closing quote missing?\n");
-  EXPECT_EQ(
-      error_of("[\"\\q\"]"),
-      "t:1:2: error: [0]: bad escape in '\"\\q\"'\n  escapes are \\\" \\\\ \\/ \\b \\f \\n \\r \\t and \\uXXXX\n");
-  EXPECT_EQ(error_of("[-]"), "t:1:2: error: [0]: '-' is no number\n");
-  EXPECT_EQ(error_of("[1e999]"), "t:1:2: error: [0]: the number '1e999' is too large\n");
-  EXPECT_EQ(error_of("[1, /* x ]"), "t:1:5: error: [0]: the comment has no closing */\n");
+  EXPECT_EQ(error_of("[\"\\q\"]"),
+            "t:1:2: error: bad escape in '\"\\q\"'\n  escapes are \\\" \\\\ \\/ \\b \\f \\n \\r \\t and \\uXXXX\n");
+  EXPECT_EQ(error_of("[-]"), "t:1:2: error: '-' is no number\n");
+  EXPECT_EQ(error_of("[1e999]"), "t:1:2: error: the number '1e999' is too large\n");
+  EXPECT_EQ(error_of("[1, /* x ]"), "t:1:5: error: the comment has no closing */\n");
   EXPECT_EQ(error_of("[1, # x\n]"),
-            "t:1:5: error: [0]: expected a value, found '#'\n"
+            "t:1:5: error: expected a value, found '#'\n"
             "  text stands in double quotes; the only words are true, false and null\n");
-  EXPECT_EQ(error_of("[\"\xff\"]"), "t:1:2: error: [0]: the text is not UTF-8\n");
+  EXPECT_EQ(error_of("[\"\xff\"]"), "t:1:2: error: the text is not UTF-8\n");
 }
 
 TEST(Json, ReportsEveryDuplicateKey) {

@@ -239,6 +239,15 @@ struct OutlierClamp : Idle {
     d.param(k, "k", "Half-width of the accepted range, standard deviations.").range(0, 1e6);
   }
 };
+struct Mean : Idle {
+  InList<Any> images;
+  Out<Any> out;
+  void describe(Describe& d) {
+    d.summary("Takes the mean of images.");
+    d.in(images, "images", "Any number of images.");
+    d.out(out, "image", "Their mean.");
+  }
+};
 // Every kind of parameter.
 struct Grade : Idle {
   In<Radiance> image;
@@ -288,6 +297,7 @@ Registry& graph_registry() {
     add<Gaussian>(registry, "gaussian");
     add<Atrous>(registry, "atrous");
     add<OutlierClamp>(registry, "outlier_clamp");
+    add<Mean>(registry, "mean");
     add<Grade>(registry, "grade");
     return true;
   }();
