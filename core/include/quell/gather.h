@@ -47,36 +47,72 @@ HWY_INLINE V value_of(const float* from, M counts) {
   return kBorder ? hn::IfThenElseZero(counts, v) : v;
 }
 
-// Adds a batch to the sums, weights straight from the exponents: one or three planes, and with three the variance.
+// Where a batch is gathered from, and the sums that it is added to.
+struct Target {
+  const float* plane[3];
+  const float* variance;
+  float* sum[3];
+  float *sum_weight, *sum_variance;
+};
+
+// What one vector of pixels, kAt beyond the place that is named, has gathered: one or three planes, and with three the
+// variance.
+template <int kPlanes, bool kVariance, bool kBorder, int kAt>
+class Gathered {
+ public:
+  HWY_INLINE Gathered(const Target& to, std::ptrdiff_t i)
+      : s0_(load(to.sum[0] + i + kAt)),
+        s1_(load(to.sum[kSecond] + i + kAt)),
+        s2_(load(to.sum[kThird] + i + kAt)),
+        weight_(load(to.sum_weight + i + kAt)),
+        variance_(kVariance ? load(to.sum_variance + i + kAt) : zero()) {}
+
+  HWY_INLINE void add(V log2_kernel, const float* exponent, const Target& from, std::ptrdiff_t at) {
+    const auto [counts, w] = weight_of(log2_kernel, load(exponent + kAt));
+    s0_ = mul_add(w, value_of<kBorder>(from.plane[0] + at + kAt, counts), s0_);
+    if constexpr (kPlanes > 1) {
+      s1_ = mul_add(w, value_of<kBorder>(from.plane[kSecond] + at + kAt, counts), s1_);
+      s2_ = mul_add(w, value_of<kBorder>(from.plane[kThird] + at + kAt, counts), s2_);
+    }
+    if constexpr (kVariance) variance_ = mul_add(w * w, value_of<kBorder>(from.variance + at + kAt, counts), variance_);
+    weight_ = weight_ + w;
+  }
+
+  HWY_INLINE void keep(const Target& to, std::ptrdiff_t i) const {
+    store(s0_, to.sum[0] + i + kAt);
+    if constexpr (kPlanes > 1) {
+      store(s1_, to.sum[kSecond] + i + kAt);
+      store(s2_, to.sum[kThird] + i + kAt);
+    }
+    if constexpr (kVariance) store(variance_, to.sum_variance + i + kAt);
+    store(weight_, to.sum_weight + i + kAt);
+  }
+
+ private:
+  static constexpr int kSecond = kPlanes > 1 ? 1 : 0, kThird = kPlanes > 1 ? 2 : 0;
+  V s0_, s1_, s2_, weight_, variance_;
+};
+
+// Adds a batch to the sums, weights straight from the exponents. Two vectors a step pay where there are registers for
+// them; a function of its own, for its loop needs all registers of the machine.
 template <int kPlanes, bool kVariance, bool kBorder>
-HWY_FLATTEN void add_by_exponent(const Batch& batch, const float* const* plane, const float* variance,
-                                 float* const* sum, float* sum_weight, float* sum_variance) {
-  const quell_run& run = batch.run;
-  constexpr int kLast = kPlanes - 1, kMiddle = kPlanes > 2 ? 1 : 0;
-  const float *p0 = plane[0] + run.at, *p1 = plane[kMiddle] + run.at, *p2 = plane[kLast] + run.at;
-  const float* pv = kVariance ? variance + run.at : p0;
-  for (int i = 0; i < run.n; i += kLanes) {
-    V s0 = load(sum[0] + i), s1 = load(sum[kMiddle] + i), s2 = load(sum[kLast] + i), sw = load(sum_weight + i);
-    V sv = kVariance ? load(sum_variance + i) : zero();
+HWY_FLATTEN HWY_NOINLINE void add_by_exponent(const Batch& batch, const Target& where) {
+  constexpr bool kTwo = HWY_TARGET == HWY_AVX3;
+  const Target target = where;
+  const quell_run run = batch.run;
+  const float* const log2_kernel = batch.log2_kernel;
+  for (std::ptrdiff_t i = 0; i < run.n; i += (kTwo ? 2 : 1) * kLanes) {
+    Gathered<kPlanes, kVariance, kBorder, 0> a(target, i);
+    Gathered<kPlanes, kVariance, kBorder, kTwo ? kLanes : 0> b(target, i);
     const float* e = batch.exponent + i;
     for (int t = 0; t < run.taps; ++t, e += run.row) {
-      const std::ptrdiff_t o = run.tap[t].offset + i;
-      const auto [counts, w] = weight_of(all(batch.log2_kernel[t]), load(e));
-      s0 = mul_add(w, value_of<kBorder>(p0 + o, counts), s0);
-      if constexpr (kPlanes > 1) {
-        s1 = mul_add(w, value_of<kBorder>(p1 + o, counts), s1);
-        s2 = mul_add(w, value_of<kBorder>(p2 + o, counts), s2);
-      }
-      if constexpr (kVariance) sv = mul_add(w * w, value_of<kBorder>(pv + o, counts), sv);
-      sw = sw + w;
+      const V k = all(log2_kernel[t]);
+      const std::ptrdiff_t at = run.at + run.tap[t].offset + i;
+      a.add(k, e, target, at);
+      if constexpr (kTwo) b.add(k, e, target, at);
     }
-    store(s0, sum[0] + i);
-    if constexpr (kPlanes > 1) {
-      store(s1, sum[kMiddle] + i);
-      store(s2, sum[kLast] + i);
-    }
-    if constexpr (kVariance) store(sv, sum_variance + i);
-    store(sw, sum_weight + i);
+    a.keep(target, i);
+    if constexpr (kTwo) b.keep(target, i);
   }
 }
 
@@ -113,14 +149,12 @@ void add_by_weight(const Batch& batch, const float* plane, float* sum) {
 template <bool kBorder>
 void add_batch(const Gather& g, const Batch& batch, Sums& sums) {
   const std::size_t planes = g.planes.size();
-  if (planes == 3) {
-    float* const sum[] = {sums.plane(0), sums.plane(1), sums.plane(2)};
-    g.variance
-        ? add_by_exponent<3, true, kBorder>(batch, g.planes.data(), g.variance, sum, sums.weight(), sums.variance())
-        : add_by_exponent<3, false, kBorder>(batch, g.planes.data(), nullptr, sum, sums.weight(), nullptr);
-  } else if (planes == 1 && !g.variance) {
-    float* const sum[] = {sums.plane(0)};
-    add_by_exponent<1, false, kBorder>(batch, g.planes.data(), nullptr, sum, sums.weight(), nullptr);
+  if (planes == 3 || (planes == 1 && !g.variance)) {
+    Target target{{}, g.variance, {}, sums.weight(), sums.variance()};
+    for (std::size_t p = 0; p < planes; ++p) target.plane[p] = g.planes[p], target.sum[p] = sums.plane(p);
+    planes == 1  ? add_by_exponent<1, false, kBorder>(batch, target)
+    : g.variance ? add_by_exponent<3, true, kBorder>(batch, target)
+                 : add_by_exponent<3, false, kBorder>(batch, target);
   } else {
     weights_in_place(batch, sums.weight());
     for (std::size_t p = 0; p < planes; ++p) add_by_weight<false, kBorder>(batch, g.planes[p], sums.plane(p));
