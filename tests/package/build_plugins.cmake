@@ -1,4 +1,5 @@
-# Installs BUILD to a prefix, moves the prefix, and builds the plugins of SOURCE against it with GENERATOR in WORK/build.
+# Installs BUILD to a prefix, moves the prefix, builds the plugins of SOURCE against it with GENERATOR in WORK/build, and
+# runs a graph of them with the installed program.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -25,3 +26,5 @@ run(${CMAKE_COMMAND} -S ${WORK}/plugins -B ${WORK}/build -G ${GENERATOR} -DCMAKE
     -DCMAKE_C_COMPILER=${C_COMPILER} -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_C_FLAGS=${FLAGS} -DCMAKE_CXX_FLAGS=${FLAGS})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${WORK}/prefix/bin/quell run ${WORK}/plugins/halved.json room --source width=48 --source height=32 --frames 3
+    --plugins ${WORK}/build --float -o "${WORK}/out/image.####.exr")
