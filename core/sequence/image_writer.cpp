@@ -29,7 +29,7 @@ constexpr float kLargestHalf = 65504.0f;
 // A multiple of the rows that every compression packs together.
 constexpr int kStrip = 64;
 
-const std::array<std::string, 7> kCompressions = {"none", "zips", "zip", "piz", "dwaa", "rle", "pxr24"};
+const std::array<std::string, 8> kCompressions = {"none", "rle", "zips", "zip", "piz", "pxr24", "dwaa", "dwab"};
 
 bool half_holds(int type) {
   switch (type) {
