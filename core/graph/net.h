@@ -67,11 +67,20 @@ struct NetOutput {
   bool tap = false;
 };
 
+// A graph used as a node by the outermost graph.
+struct NetUse {
+  std::string name;
+  TextPosition position;
+  bool bypassed = false;
+};
+
 struct Net {
   std::vector<NetInput> inputs;
   std::vector<NetNode> nodes;
   std::vector<Alias> aliases;
   std::vector<NetOutput> outputs;
+  std::vector<NetUse> uses;
+  std::vector<int> use_of_scope;  // which of them a scope lies in; -1: the outermost graph itself
 
   std::string name_of(const Target&) const;  // "color", "variance.image", "level0.image"
   int type_of(const Target&) const;          // of a node or input, once types are bound; 0: not yet

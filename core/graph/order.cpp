@@ -44,11 +44,18 @@ std::vector<bool> needed(const Net& net, Faults& faults) {
     each_link(net.nodes[std::size_t(n)], reach);
   }
   // Within a subgraph a node may well be of use elsewhere: only what the graph itself names is worth a word.
+  std::vector<bool> used(net.uses.size(), false);
   for (std::size_t i = 0; i < net.nodes.size(); ++i) {
     const auto& n = net.nodes[i];
-    if (!kept[i] && n.scope == 0 && !n.spec->bypass)
+    const int use = net.use_of_scope[std::size_t(n.scope)];
+    if (use >= 0)
+      used[std::size_t(use)] = used[std::size_t(use)] || kept[i];
+    else if (!kept[i] && !n.spec->bypass)
       faults.warning(n.spec->position, n.name, fmt::format("no output needs node '{}'; it is left out", n.name));
   }
+  for (std::size_t u = 0; u < used.size(); ++u)
+    if (const auto& use = net.uses[u]; !used[u] && !use.bypassed)
+      faults.warning(use.position, use.name, fmt::format("no output needs node '{}'; it is left out", use.name));
   return kept;
 }
 

@@ -31,6 +31,7 @@ class Resolver {
 
   void run(std::span<const Tap> taps, const std::optional<Roles>& roles) {
     inputs(roles);
+    uses();
     for (const auto& e : expansion_.nodes) node(e);
     Lookup lookup(expansion_, out.net, root_inputs_, faults_);
     for (auto& n : out.net.nodes)
@@ -63,6 +64,18 @@ class Resolver {
       }
       root_inputs_.push_back({Target::Kind::input, int(out.net.inputs.size()), 0});
       out.net.inputs.push_back({in.name, in.type, in.optional, in.position});
+    }
+  }
+
+  void uses() {
+    for (const auto& scope : expansion_.scopes) {
+      int use = -1;
+      if (scope.parent > 0) use = out.net.use_of_scope[std::size_t(scope.parent)];
+      if (scope.parent == 0) {
+        use = int(out.net.uses.size());
+        out.net.uses.push_back({scope.name, scope.node->position, scope.node->bypass});
+      }
+      out.net.use_of_scope.push_back(use);
     }
   }
 
