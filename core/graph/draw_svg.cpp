@@ -97,6 +97,7 @@ std::string draw_svg(const Graph& g) {
       "height=\"{1:.0f}\">\n<title>{2}</title>\n",
       layout.width + kSide, layout.height, escaped(g.name.empty() ? "graph" : g.name));
   out += kStyle;
+  out += "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
   for (std::size_t i = 0; i < drawing.lines.size(); ++i) {
     const auto& l = drawing.lines[i];
     const auto from = std::size_t(l.from), to = std::size_t(l.to);

@@ -56,8 +56,8 @@ NodeSource::~NodeSource() = default;
 bool NodeSource::cut_before(std::int64_t frame) const {
   if (cuts_.contains(frame)) return true;
   const auto it = std::ranges::find(frames_, frame);
-  if (it == frames_.begin() || it == frames_.end()) return true;
-  return frame - it[-1] != frames_[1] - frames_[0];
+  // Motion leads to the frame before, and to no other.
+  return it == frames_.begin() || it == frames_.end() || frame != it[-1] + 1;
 }
 
 std::size_t NodeSource::output(const std::string& role) const {

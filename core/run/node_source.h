@@ -12,8 +12,8 @@ namespace quell {
 
 class NodeSource : public FrameSource {
  public:
-  // `node` has no required inputs. History ends before each frame of `cuts`, and where frame numbers do not follow each
-  // other at a constant distance. Throws Error(Exit::plugin) when the node refuses its parameters.
+  // `node` has no required inputs. History ends before each frame of `cuts`, and where a number does not follow the one
+  // before. Throws Error(Exit::plugin) when the node refuses its parameters.
   NodeSource(Instance node, std::vector<std::int64_t> frames, std::set<std::int64_t> cuts, int threads,
              const std::atomic<bool>* cancel);
   ~NodeSource() override;
