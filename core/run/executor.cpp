@@ -123,9 +123,7 @@ class Run {
 
   void resume(std::int64_t first) {
     const auto saved = load_state(options_.load_state, graph_, *session_);
-    const auto& frames = source_.frames();
-    const std::int64_t stride = frames.size() > 1 ? frames[1] - frames[0] : 1;
-    if (first != saved + 1 && first != saved + stride)
+    if (first != saved + 1)
       throw Error(
           Exit::input,
           fmt::format("{}: cannot load state: it was saved after frame {}, so a run must go on with frame {}, not {}",

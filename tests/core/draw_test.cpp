@@ -64,7 +64,7 @@ TEST(Draw, SvgHoldsEveryNodeAndWire) {
   const Graph g = svgf();
   const Boxes boxes = boxes_of(g);
   const std::string svg = draw_svg(g);
-  EXPECT_EQ(count(svg, "<rect "), boxes.boxes.size());
+  EXPECT_EQ(count(svg, "<rect "), boxes.boxes.size() + 1);  // and the background
   EXPECT_EQ(count(svg, "marker-end="), boxes.lines.size());
   EXPECT_EQ(count(svg, "class=\"delayed\""), 6u);
   EXPECT_EQ(count(svg, "nan,") + count(svg, ",nan") + count(svg, "\"nan"), 0u);
@@ -107,7 +107,7 @@ TEST(Draw, LargeGraphsCanBeDrawn) {
   const auto l = load_text(R"({"quell": 1, "inputs": {"color": "radiance", "albedo": "albedo"}, "nodes": {)" + body +
                            R"(}, "outputs": {"color": "n4999"}})");
   ASSERT_TRUE(l.graph) << l.messages;
-  EXPECT_EQ(count(draw_svg(*l.graph), "<rect "), 5003u);
+  EXPECT_EQ(count(draw_svg(*l.graph), "<rect "), 5004u);
 }
 
 }  // namespace
