@@ -1,5 +1,5 @@
-// Real renders through the sequence files of tests/data_sequences, where QUELL_TEST_DATA points at them: do the conventions
-// hold, as projecting each pixel's own position can tell?
+// Real renders through the sequence files of tests/data_sequences, where QUELL_TEST_DATA points at them: do the
+// conventions hold, as projecting each pixel's own position can tell?
 #include "core/image/image.h"
 #include "core/sequence/matrices.h"
 #include "core/sequence/sequence.h"
@@ -55,14 +55,15 @@ class RealSequence : public testing::Test {
     return out;
   }
 
-  // Largest distance, in pixels, between where a pixel's position projects to and its centre; and largest difference between
-  // its depth and that of its position.
+  // Largest distance, in pixels, between where a pixel's position projects to and its centre; and largest difference
+  // between its depth and that of its position.
   struct Agreement {
     double pixels = 0, depth = 0;
     int hits = 0;
   };
   static Agreement agreement(FrameSource& source, std::int64_t frame) {
-    const Image position = read(source, frame, "position"), depth = read(source, frame, "depth"), camera = read(source, frame, "camera");
+    const Image position = read(source, frame, "position"), depth = read(source, frame, "depth"),
+                camera = read(source, frame, "camera");
     const Matrix view = matrix(camera, 0), screen = matrix(camera, 1);
     Agreement out;
     for (int y = 0; y < depth.height(); ++y)
@@ -86,13 +87,15 @@ TEST_F(RealSequence, Games202KeepsItsConventions) {
   EXPECT_LT(found.pixels, 1e-3);
   EXPECT_LT(found.depth, 1e-5);
   EXPECT_EQ(found.hits, 512 * 512 - 14140);
-  const Image id = read(*source, 3, "id"), normal = read(*source, 3, "normal"), position = read(*source, 3, "position"), depth = read(*source, 3, "depth");
+  const Image id = read(*source, 3, "id"), normal = read(*source, 3, "normal"), position = read(*source, 3, "position"),
+              depth = read(*source, 3, "depth");
   int misses = 0;
   for (int y = 0; y < 512; ++y)
     for (int x = 0; x < 512; ++x) {
       const bool miss = id.bits(0, y)[x] == kNoId;
       misses += miss;
-      const double length = std::hypot(double(normal.at(0, x, y)), double(normal.at(1, x, y)), double(normal.at(2, x, y)));
+      const double length =
+          std::hypot(double(normal.at(0, x, y)), double(normal.at(1, x, y)), double(normal.at(2, x, y)));
       ASSERT_NEAR(length, miss ? 0.0 : 1.0, 1e-6);
       ASSERT_EQ(depth.at(0, x, y) == kFar, miss);
       ASSERT_TRUE(!miss || position.at(0, x, y) == 0.0f);
@@ -110,8 +113,8 @@ TEST_F(RealSequence, CyclesCornellReads) {
   EXPECT_EQ(read(*source, 8, "reference_a").width(), 480);
   EXPECT_EQ(read(*source, 8, "transforms").height(), 10);
   // The static floor: a point goes where motion says. Previous = current + motion.
-  const Image now = read(*source, 8, "camera"), before = read(*source, 7, "camera"), depth = read(*source, 8, "depth"), motion = read(*source, 8, "motion"),
-              id = read(*source, 8, "id");
+  const Image now = read(*source, 8, "camera"), before = read(*source, 7, "camera"), depth = read(*source, 8, "depth"),
+              motion = read(*source, 8, "motion"), id = read(*source, 8, "id");
   Matrix screen_to_world;
   ASSERT_TRUE(invert(matrix(now, 1), screen_to_world));
   double worst = 0;
@@ -120,7 +123,8 @@ TEST_F(RealSequence, CyclesCornellReads) {
     for (int x = 0; x < 480; ++x) {
       if (id.bits(0, y)[x] != 1) continue;
       // A point of this depth on the ray through the pixel: w is the depth, and the third row gives z for that w.
-      const Point near = apply(screen_to_world, {{x + 0.5, y + 0.5, 0, 1}}), far = apply(screen_to_world, {{x + 0.5, y + 0.5, 1, 1}});
+      const Point near = apply(screen_to_world, {{x + 0.5, y + 0.5, 0, 1}}),
+                  far = apply(screen_to_world, {{x + 0.5, y + 0.5, 1, 1}});
       const Matrix view = matrix(now, 0);
       Point a{}, b{};
       for (std::size_t i = 0; i < 4; ++i) a.v[i] = near.v[i] / near.v[3], b.v[i] = far.v[i] / far.v[3];
@@ -128,7 +132,8 @@ TEST_F(RealSequence, CyclesCornellReads) {
       Point p{};
       for (std::size_t i = 0; i < 4; ++i) p.v[i] = a.v[i] + t * (b.v[i] - a.v[i]);
       const Point s = apply(matrix(before, 1), p);
-      worst = std::max(worst, std::hypot(s.v[0] / s.v[3] - x - 0.5 - double(motion.at(0, x, y)), s.v[1] / s.v[3] - y - 0.5 - double(motion.at(1, x, y))));
+      worst = std::max(worst, std::hypot(s.v[0] / s.v[3] - x - 0.5 - double(motion.at(0, x, y)),
+                                         s.v[1] / s.v[3] - y - 0.5 - double(motion.at(1, x, y))));
       ++floor;
     }
   EXPECT_GT(floor, 10000);
@@ -139,7 +144,8 @@ TEST_F(RealSequence, CyclesNativeKeepsItsConventions) {
   for (const char* scene : {"cornell-mover", "glossy-hall", "foliage-cut"}) {
     const auto source = open(std::string("cycles-native-") + scene, "cycles-native");
     ASSERT_TRUE(source);
-    for (const char* role : {"color", "albedo", "normal", "depth", "position", "motion", "id", "emission", "environment", "camera"})
+    for (const char* role :
+         {"color", "albedo", "normal", "depth", "position", "motion", "id", "emission", "environment", "camera"})
       EXPECT_TRUE(source->roles().contains(role)) << scene << ' ' << role;
     const auto found = agreement(*source, 8);
     EXPECT_GT(found.hits, 1000) << scene;
@@ -155,7 +161,10 @@ TEST_F(RealSequence, EveryCompressionReadsAlike) {
   int read_files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(codecs)) {
     Diagnostics diagnostics;
-    SequenceRequest request{(entry.path() / "frame_####.exr").string(), {}, {}, std::filesystem::path(QUELL_TEST_SOURCE) / "graphs/profiles"};
+    SequenceRequest request{(entry.path() / "frame_####.exr").string(),
+                            {},
+                            {},
+                            std::filesystem::path(QUELL_TEST_SOURCE) / "graphs/profiles"};
     const auto sequence = load_sequence(request, diagnostics);
     ASSERT_TRUE(sequence) << diagnostics.format();
     const auto source = open_sequence(*sequence, {}, Missing::error, diagnostics);
