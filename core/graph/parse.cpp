@@ -24,11 +24,12 @@ class Parser {
 
   std::optional<Document> document(const Json& json) {
     if (!kind(json, Json::Kind::object, "", "a graph")) return std::nullopt;
-    keys(json, "", {"quell", "name", "about", "inputs", "params", "nodes", "outputs"});
+    keys(json, "", {"quell", "name", "about", "inputs", "params", "nodes", "outputs", "$schema"});
     Document d;
     d.position = json.position;
     version(json);
     if (const auto* j = json.find("name"); j && kind(*j, Json::Kind::text, "name", "the name")) d.name = j->text;
+    if (const auto* j = json.find("$schema")) kind(*j, Json::Kind::text, "$schema", "the address");
     if (const auto* j = json.find("about"); j && kind(*j, Json::Kind::text, "about", "the text")) d.about = j->text;
     section(json, "inputs", [&](const JsonMember& m) { input(d, m); });
     section(json, "params", [&](const JsonMember& m) { param(d, m); });

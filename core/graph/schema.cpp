@@ -160,6 +160,7 @@ std::string graph_schema(Registry& registry) {
   properties["quell"] = {{"const", 1}, {"description", "Version of the format."}};
   properties["name"] = {{"type", "string"}};
   properties["about"] = {{"type", "string"}};
+  properties["$schema"] = {{"type", "string"}, {"description", "Where an editor finds this schema."}};
   properties["base"] = {{"type", "string"},
                         {"description", "This is a variant: laid over that graph, in which null removes."}};
   properties["inputs"] = map_of(
