@@ -17,10 +17,62 @@ namespace {
 
 std::string shown(const quell_shape& s) { return fmt::format("{}x{}", s.width, s.height); }
 
+bool same_shape(const quell_shape& a, const quell_shape& b) {
+  return a.width == b.width && a.height == b.height && a.channels == b.channels;
+}
+
 bool is_pixels(int type) {
   const auto* info = type_info(type);
   return info && info->storage == Storage::pixels;
 }
+
+// That the images of a node go together: a kernel takes one size, one pitch and the channels of a type for granted.
+class Fit {
+ public:
+  explicit Fit(const std::string& node) : node_(node) {}
+
+  void image(const quell_port& port, const quell_shape& s) {
+    const auto* info = type_info(port.type);
+    if (info && info->channels && s.channels != info->channels)
+      fail("input '{}' is {} of {} channels, but what it reads has {}", port.name, info->name, info->channels,
+           s.channels);
+    if (port.type == QUELL_ANY) {
+      if (any_.empty()) any_ = port.name, channels_ = s.channels;
+      if (s.channels != channels_)
+        fail("input '{}' has {} channels, but '{}' has {}", port.name, s.channels, any_, channels_);
+    }
+    if (port.type != QUELL_FEATURES) size(port, s);
+  }
+  // Weights are read at the pixels of the image that they filter.
+  void size(const quell_port& port, const quell_shape& s) {
+    if (first_.empty()) first_ = port.name, size_ = s;
+    if (s.width != size_.width || s.height != size_.height)
+      fail("input '{}' is {}, but '{}' is {}: the images of a node have one size", port.name, shown(s), first_,
+           shown(size_));
+  }
+  void start(const quell_port& port, const quell_shape& start, const quell_shape& s) {
+    if (!same_shape(start, s))
+      fail("the start of input '{}' is {} with {} channels, but what it stands in for is {} with {}", port.name,
+           shown(start), start.channels, shown(s), s.channels);
+  }
+  void output(const quell_port& port, int type, const quell_shape& s) {
+    const auto* info = type_info(type);
+    if (info && info->channels && s.channels != info->channels)
+      fail("output '{}' is {} of {} channels, but would have {}", port.name, info->name, info->channels, s.channels);
+    if (info && info->channels && port.type == QUELL_ANY && !any_.empty() && channels_ != info->channels)
+      fail("input '{}' is {} of {} channels, but what it reads has {}", any_, info->name, info->channels, channels_);
+  }
+
+ private:
+  template <class... A>
+  [[noreturn]] void fail(fmt::format_string<A...> format, A&&... args) const {
+    throw Error(Exit::usage, node_ + ": " + fmt::format(format, std::forward<A>(args)...));
+  }
+  const std::string& node_;
+  std::string first_, any_;
+  quell_shape size_{};
+  int channels_ = 0;
+};
 
 quell_spec spec_of(const PlannedNode& n) { return {n.in.data(), n.in_count.data()}; }
 
@@ -44,10 +96,22 @@ void for_each_read(const Graph& graph, std::size_t index, F&& f) {
 
 Plan::Plan(const Graph& graph, std::span<const quell_shape> inputs) : graph_(&graph) {
   list_values(inputs);
-  // Twice, for a delayed wire may come from a node later in the order: the first pass guesses its shape, the second
-  // knows it.
-  shapes(false);
+  // A delayed wire may come from a node later in the order, whose shape a first pass does not know: passes are made
+  // until nothing changes. A chain of more loops than this, each sized by the next alone, is no pipeline.
+  constexpr int kMostPasses = 64;
+  for (int pass = 0; pass < kMostPasses && shapes(false); ++pass) {
+  }
   shapes(true);
+  for (const auto& output : graph.outputs) {
+    const auto* info = type_info(output.type);
+    const auto& value = values_[value_of(output.wire.from)];
+    if (info && info->channels && value.shape.channels != info->channels)
+      throw Error(Exit::usage, fmt::format("output '{}' is {} of {} channels, but '{}' has {}", output.name, info->name,
+                                           info->channels, value.name, value.shape.channels));
+    if (output.wire.start.node != Source::kNone && !same_shape(value.shape, values_[value_of(output.wire.start)].shape))
+      throw Error(Exit::usage,
+                  fmt::format("output '{}': '{}' and its start have unlike sizes", output.name, value.name));
+  }
   lifetimes();
   memory();
 }
@@ -70,8 +134,9 @@ void Plan::list_values(std::span<const quell_shape> inputs) {
   }
 }
 
-void Plan::shapes(bool settled) {
+bool Plan::shapes(bool settled) {
   const auto& g = *graph_;
+  bool changed = false;
   nodes_.assign(g.nodes.size(), {});
   for (std::size_t n = 0; n < g.nodes.size(); ++n) {
     const auto& node = g.nodes[n];
@@ -81,32 +146,44 @@ void Plan::shapes(bool settled) {
     planned.in_count.resize(ports.size());
     planned.reach = node.instance.reach();
     quell_shape first{};
-    std::string first_name;
+    Fit fit(node.name);
+    bool images = false;
     int any_channels = 0, feature_channels = 0;
     for (const bool delayed : {false, true})
       for (std::size_t p = 0; p < ports.size(); ++p) {
         if (ports[p].type == QUELL_WEIGHT) {
           planned.in_count[p] = int(node.in[p].size());
+          for (const auto& wire : node.in[p])
+            if (const auto& weighed = values_[value_of(wire.from)].shape; settled && delayed && weighed.width)
+              fit.size(ports[p], weighed);
           continue;
         }
         for (const auto& wire : node.in[p]) {
           if ((wire.delay > 0) != delayed) continue;
           const auto& value = values_[value_of(wire.from)];
           quell_shape s = value.shape;
-          if (delayed && s.width == 0) s = {first.width, first.height, 0};
+          if (s.width == 0 && wire.start.node != Source::kNone) s = values_[value_of(wire.start)].shape;
+          if (s.width == 0 && delayed) s = {first.width, first.height, 0};
           if (const auto* info = type_info(value.type); info && info->channels && s.channels == 0)
             s.channels = info->channels;
           if (planned.in_count[p]++ == 0) planned.in[p] = s;
           if (!is_pixels(value.type)) continue;
-          if (first.width == 0) first = s, first_name = ports[p].name;
-          if (value.type != QUELL_FEATURES && (s.width != first.width || s.height != first.height))
-            throw Error(Exit::usage,
-                        fmt::format("{}: input '{}' is {}, but '{}' is {}: the images of a node have one size",
-                                    node.name, ports[p].name, shown(s), first_name, shown(first)));
+          images = true;
+          if (s.width == 0) continue;  // not known yet
+          if (first.width == 0) first = s;
+          if (settled) fit.image(ports[p], s);
+          if (settled && wire.start.node != Source::kNone) fit.start(ports[p], values_[value_of(wire.start)].shape, s);
           if (ports[p].type == QUELL_ANY && any_channels == 0) any_channels = s.channels;
           if (ports[p].type == QUELL_FEATURES && feature_channels == 0) feature_channels = s.channels;
         }
       }
+    if (images && first.width == 0) {
+      if (settled)
+        throw Error(Exit::usage, fmt::format("{}: its size is not known, for it reads nothing but the past; give a "
+                                             "delayed wire a \"start\"",
+                                             node.name));
+      continue;
+    }
     std::vector<quell_shape> out;
     for (std::size_t o = 0; o < node.type().outputs().size(); ++o) {
       const auto& port = node.type().outputs()[o];
@@ -123,27 +200,39 @@ void Plan::shapes(bool settled) {
       if (table.shapes(node.instance.data(), &spec, out.data(), &error))
         throw Error(Exit::plugin, fmt::format("{} ({}): {}", node.name, table.name, error.text));
     }
+    int first_output = -1;
     planned.tiled = -1;
     for (std::size_t o = 0; o < out.size(); ++o) {
       auto& value = values_[first_value_[n] + o];
       const int with = node.type().outputs()[o].with;
+      if (!same_shape(value.shape, out[o])) {
+        if (settled)
+          throw Error(Exit::usage, fmt::format("{}: output '{}' would grow from {} with {} channels to {} with {}: a "
+                                               "size cannot depend on its own past",
+                                               node.name, node.type().outputs()[o].name, shown(value.shape),
+                                               value.shape.channels, shown(out[o]), out[o].channels));
+        changed = true;
+      }
       value.shape = out[o];
       value.exists = !node.type().is_weight() && (with < 0 || !node.in[std::size_t(with)].empty());
       if (!value.exists) continue;
+      if (first_output < 0) first_output = int(o);
       if (planned.tiled < 0 && is_pixels(value.type)) planned.tiled = int(o);
       if (!settled) continue;
       if (out[o].width <= 0 || out[o].height <= 0 || out[o].channels <= 0)
         throw Error(Exit::plugin,
                     fmt::format("{} ({}): output '{}' would be {}x{} with {} channels", node.name, table.name,
                                 node.type().outputs()[o].name, out[o].width, out[o].height, out[o].channels));
+      fit.output(node.type().outputs()[o], value.type, out[o]);
     }
-    planned.tiled = std::max(planned.tiled, 0);
+    if (planned.tiled < 0) planned.tiled = std::max(first_output, 0);
     for (const auto& r : planned.reach) {
       planned.step = std::max(planned.step, r.step);
       planned.anywhere |= r.anywhere != 0;
       planned.max_row_reach = std::max({planned.max_row_reach, r.up, r.down});
     }
   }
+  return changed;
 }
 
 void Plan::lifetimes() {

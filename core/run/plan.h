@@ -63,7 +63,8 @@ class Plan {
 
  private:
   void list_values(std::span<const quell_shape> inputs);
-  void shapes(bool settled);
+  // One pass over the nodes; whether any shape changed. The settled one throws when a shape does, or is not known.
+  bool shapes(bool settled);
   void lifetimes();
   void memory();
 
