@@ -19,7 +19,7 @@ constexpr std::int64_t kLargest = 1'000'000'000'000;  // so that differences and
 std::optional<std::int64_t> take_number(std::string_view& text) {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || std::abs(value) > kLargest) return std::nullopt;
+  if (error != std::errc() || value < -kLargest || value > kLargest) return std::nullopt;
   text.remove_prefix(std::size_t(end - text.data()));
   return value;
 }
@@ -74,6 +74,7 @@ std::optional<std::vector<std::int64_t>> parse_frame_range(std::string_view text
                             part);
       return std::nullopt;
     }
+    if (span->complement && span->step == 1) continue;  // leaves out every frame
     const std::int64_t distance = std::abs(span->last - span->first), direction = span->last < span->first ? -1 : 1;
     for (std::int64_t i = 0; i <= distance; i += span->complement ? 1 : span->step) {
       if (span->complement && i % span->step == 0) continue;

@@ -52,6 +52,8 @@ TEST(FrameRange, RefusesWithTheOffendingText) {
   EXPECT_EQ(refusal("1-2-3"), "'1-2-3'" + rest);
   EXPECT_EQ(refusal("1.5"), "'1.5'" + rest);
   EXPECT_EQ(refusal("99999999999999999999"), "'99999999999999999999'" + rest);
+  EXPECT_EQ(refusal("-9223372036854775808"), "'-9223372036854775808'" + rest);  // has no absolute value
+  EXPECT_EQ(refusal("0-999999999999y1"), "'0-999999999999y1' names no frame");  // and that at once
   EXPECT_EQ(refusal("1-5,3"), "'1-5,3' names frame 3 twice");
   EXPECT_EQ(refusal("0-999999999"), "'0-999999999' names more than 10000000 frames");
   EXPECT_EQ(refusal("4-4y1"), "'4-4y1' names no frame");
