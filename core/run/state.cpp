@@ -6,15 +6,15 @@
 #include "core/run/state.h"
 
 #include "core/report/error.h"
+#include "core/sequence/temporary_file.h"
 
 #include <fmt/format.h>
 
-#include <unistd.h>
-
-#include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace quell {
 
@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr char kMagic[] = "QUELLST1";
+constexpr std::int64_t kMost = std::int64_t(1) << 53;
 
 class Hash {
  public:
@@ -45,9 +46,9 @@ class Hash {
 
 class Writer {
  public:
-  explicit Writer(std::ofstream& out) : out_(out) {}
+  explicit Writer(TemporaryFile& file) : file_(file) {}
   void bytes(const void* data, std::size_t size) {
-    out_.write(static_cast<const char*>(data), std::streamsize(size));
+    put(data, size);
     hash_.add(data, size);
   }
   template <class T>
@@ -55,10 +56,23 @@ class Writer {
     bytes(&value, sizeof value);
   }
   void text(const std::string& s) { number(std::uint32_t(s.size())), bytes(s.data(), s.size()); }
-  std::uint64_t hash() const { return hash_.value(); }
+  void finish() {
+    const auto hash = hash_.value();
+    put(&hash, sizeof hash);
+    file_.write(block_.data(), block_.size());
+  }
 
  private:
-  std::ofstream& out_;
+  void put(const void* data, std::size_t size) {
+    constexpr std::size_t full = std::size_t(1) << 20;
+    const auto* p = static_cast<const char*>(data);
+    block_.insert(block_.end(), p, p + size);
+    if (block_.size() < full) return;
+    file_.write(block_.data(), block_.size());
+    block_.clear();
+  }
+  TemporaryFile& file_;
+  std::vector<char> block_;
   Hash hash_;
 };
 
@@ -109,40 +123,25 @@ std::vector<Entry> entries(const Plan& plan) {
 }  // namespace
 
 void save_state(const fs::path& path, const Graph& graph, const Session& session, std::int64_t frame) {
-  const fs::path temporary = path.string() + fmt::format(".tmp{}", getpid());
-  const auto fail = [&](const char* what) {
-    const int code = errno;
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw Error(Exit::resources, fmt::format("{}: cannot {} state: {}", path.string(), what, std::strerror(code)));
-  };
-  {
-    std::ofstream out(temporary, std::ios::binary);
-    if (!out) fail("create");
-    Writer w(out);
-    const auto list = entries(session.plan());
-    w.bytes(kMagic, 8);
-    w.bytes(fingerprint(graph).data(), 16);
-    w.number(frame);
-    w.number(session.age());
-    w.number(std::uint32_t(list.size()));
-    for (const auto& [value, delay] : list) {
-      const auto& v = session.plan().values()[value];
-      const auto image = session.history(value, delay);
-      w.text(v.name);
-      for (const std::int32_t n : {delay, image.width, image.height, image.channels}) w.number(n);
-      for (int c = 0; c < image.channels; ++c)
-        for (int y = 0; y < image.height; ++y)
-          w.bytes(image.plane[c] + y * image.pitch, std::size_t(image.width) * sizeof(float));
-    }
-    const auto hash = w.hash();
-    out.write(reinterpret_cast<const char*>(&hash), sizeof hash);
-    out.close();
-    if (!out) fail("write");
+  TemporaryFile file(path.string());
+  Writer w(file);
+  const auto list = entries(session.plan());
+  w.bytes(kMagic, 8);
+  w.bytes(fingerprint(graph).data(), 16);
+  w.number(frame);
+  w.number(session.age());
+  w.number(std::uint32_t(list.size()));
+  for (const auto& [value, delay] : list) {
+    const auto& v = session.plan().values()[value];
+    const auto image = session.history(value, delay);
+    w.text(v.name);
+    for (const std::int32_t n : {delay, image.width, image.height, image.channels}) w.number(n);
+    for (int c = 0; c < image.channels; ++c)
+      for (int y = 0; y < image.height; ++y)
+        w.bytes(image.plane[c] + y * image.pitch, std::size_t(image.width) * sizeof(float));
   }
-  std::error_code error;
-  fs::rename(temporary, path, error);
-  if (error) errno = error.value(), fail("rename");
+  w.finish();
+  file.commit();
 }
 
 std::int64_t load_state(const fs::path& path, const Graph& graph, Session& session) {
@@ -159,6 +158,8 @@ std::int64_t load_state(const fs::path& path, const Graph& graph, Session& sessi
                        std::string(print, 16), wanted));
   const auto frame = r.number<std::int64_t>();
   const auto age = r.number<std::int64_t>();
+  // Both are counted on from here, so they must leave room.
+  if (age < 1 || age > kMost || frame < -kMost || frame > kMost) r.fail("it is damaged; save it anew");
   const auto list = entries(session.plan());
   if (r.number<std::uint32_t>() != list.size()) r.fail("it is damaged; save it anew");
   for (const auto& [value, delay] : list) {

@@ -318,6 +318,39 @@ TEST_F(State, RefusesWhatDoesNotFit) {
   EXPECT_EQ(failure(accumulator(), Frames(5, 9)), name + ": cannot load state: No such file or directory");
 }
 
+TEST_F(State, RefusesCountsThatCannotBeCountedOn) {
+  Keep sink;
+  Frames a(0, 4);
+  run_graph(accumulator(), a, sink, saving());
+  // Behind the magic and the fingerprint: the frame, then the age.
+  for (const auto& [offset, value] :
+       {std::pair<int, std::int64_t>{24, INT64_MAX}, {32, INT64_MAX}, {32, 0}, {32, -1}}) {
+    Frames first(0, 4);
+    run_graph(accumulator(), first, sink, saving());
+    std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(offset);
+    file.write(reinterpret_cast<const char*>(&value), sizeof value);
+    file.close();
+    EXPECT_EQ(failure(accumulator(), Frames(5, 9)), path_.string() + ": cannot load state: it is damaged; save it anew")
+        << offset << ": " << value;
+  }
+}
+
+// In a folder that others may write to, a name that can be foretold may be a link that they made.
+TEST_F(State, IsWrittenToNoNameThatCanBeForetold) {
+  const auto victim = path_.string() + ".victim", link = path_.string() + ".tmp" + std::to_string(getpid());
+  std::ofstream(victim) << "mine";
+  std::filesystem::create_symlink(victim, link);
+  Keep sink;
+  Frames a(0, 4);
+  run_graph(accumulator(), a, sink, saving());
+  std::string text;
+  std::ifstream(victim) >> text;
+  EXPECT_EQ(text, "mine");
+  std::filesystem::remove(link);
+  std::filesystem::remove(victim);
+}
+
 TEST(Executor, AFailingNodeNamesItselfFrameAndRows) {
   Graph g;
   g.inputs = {{"a", QUELL_SCALAR, false}};
