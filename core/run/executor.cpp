@@ -83,6 +83,8 @@ class Run {
     if (!options_.load_state.empty()) resume(frames[0]);
     read_ahead(frames[0], 0);
     for (std::size_t i = 0; i < frames.size(); ++i) {
+      // Nodes look too, but a graph may have none that run.
+      if (options_.cancel && options_.cancel->load()) throw Error(Exit::interrupted, "interrupted");
       reader_.wait();
       const bool new_size = pending_shapes_.has_value();
       if (new_size) {

@@ -407,6 +407,20 @@ TEST(Executor, CancelStops) {
   EXPECT_EQ(sink.frames.size(), 4u);
 }
 
+TEST(Executor, CancelStopsAGraphWithoutNodesToo) {
+  Graph g = accumulator();
+  g.nodes.clear();
+  g.outputs = {{"as_it_is", {input(), 0, {}}, QUELL_SCALAR, false}};
+  Frames source(0, 9);
+  Keep sink;
+  std::atomic<bool> cancel = false;
+  RunOptions options;
+  options.cancel = &cancel;
+  options.progress = [&](const Progress& p) { cancel = p.done == 4; };
+  EXPECT_THROW(run_graph(g, source, sink, options), Error);
+  EXPECT_EQ(sink.frames.size(), 4u);
+}
+
 TEST(Plan, TellsOrderAndMemory) {
   const Graph g = accumulator();
   const quell_shape shape{100, 50, 1};
