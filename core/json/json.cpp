@@ -18,6 +18,8 @@ namespace {
 
 constexpr std::size_t kMaxDepth = 64;
 constexpr std::size_t kMaxBytes = std::size_t(256) << 20;
+constexpr std::size_t kMaxDuplicates = 64;                // a place is found by a walk along its line
+constexpr std::size_t kMaxValues = std::size_t(1) << 22;  // a value takes a hundred times the memory of its text
 constexpr std::size_t kShown = 48;
 
 struct CountingIterator {
@@ -82,7 +84,9 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     const auto [first, fresh] = scope.keys.emplace(name, position.offset);
     if (!fresh) {
       diagnostics_.error(position, path(), fmt::format("duplicate key '{}'", name),
-                         {fmt::format("the first is at {}", diagnostics_.sources.place({source_, first->second}))});
+                         {fmt::format("the first is at {}", diagnostics_.sources.place({source_, first->second})),
+                          ++duplicates_ == kMaxDuplicates ? "what follows is not read" : ""});
+      if (duplicates_ == kMaxDuplicates) return false;
     }
     scope.json->members.push_back({std::move(name), position, {}});
     return true;
@@ -126,6 +130,10 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   }
   template <class Fill>
   bool value(Json::Kind kind, std::size_t offset, Fill fill) {
+    if (values_++ == kMaxValues) {
+      diagnostics_.error({source_, offset}, "", fmt::format("more than {} values", kMaxValues));
+      return false;
+    }
     Json& json = slot();
     json.kind = kind;
     json.position = {source_, offset};
@@ -142,7 +150,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
       diagnostics_.error(position, "", fmt::format("nested deeper than {} levels", kMaxDepth));
       return false;
     }
-    value(kind, consumed - 1, [](Json&) {});
+    if (!value(kind, consumed - 1, [](Json&) {})) return false;
     opened_ = true;
     open_.push_back({newest(), {}, {}});
     return true;
@@ -174,6 +182,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   int source_;
   Diagnostics& diagnostics_;
   std::vector<Scope> open_;
+  std::size_t values_ = 0, duplicates_ = 0;
   std::size_t last_end_ = 0;  // behind the last token that became an event
   bool opened_ = false;       // and it was a bracket that opens
 };

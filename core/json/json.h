@@ -38,9 +38,9 @@ struct JsonMember {
   Json value;
 };
 
-// Parses one document whose text becomes a source called `name`. Syntax errors, duplicate keys (one message each), more
-// than 64 levels and numbers that are not finite are errors; nothing is returned then. Bounded: a text of 100 MB of
-// brackets is an error, not a crash. Takes comments and a byte order mark.
+// Parses one document whose text becomes a source called `name`. Syntax errors, duplicate keys (one message each, 64 at
+// most), more than 64 levels or 4 million values and numbers that are not finite are errors; nothing is returned then.
+// Bounded: a text of 100 MB of brackets is an error, not a crash. Takes comments and a byte order mark.
 std::optional<Json> parse_json(std::string name, std::string text, Diagnostics&);
 // The same from a file; a missing or unreadable file is an error.
 std::optional<Json> parse_json_file(const std::string& path, Diagnostics&);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -123,6 +124,20 @@ TEST(Json, HundredMegabytesOfBracketsAreAnError) {
   std::string nested;
   for (int i = 0; i < 1000000; ++i) nested += "{\"a\":";
   EXPECT_EQ(error_of(nested), "t:1:321: error: nested deeper than 64 levels\n");
+}
+
+TEST(Json, BoundsTheNumberOfValues) {
+  std::string many = "[";
+  for (int i = 0; i < 4194304; ++i) many += "0,";
+  EXPECT_EQ(error_of(many + "0]"), "t:1:8388608: error: more than 4194304 values\n");
+}
+
+TEST(Json, BoundsTheNumberOfDuplicateKeys) {
+  std::string many = "{\"a\": 0";
+  for (int i = 0; i < 1000; ++i) many += ", \"a\": 0";
+  const auto messages = error_of(many + "}");
+  EXPECT_NE(messages.find("\n  what follows is not read\n"), std::string::npos);
+  EXPECT_EQ(std::ranges::count(messages, '\n'), 2 * 64 + 1);
 }
 
 TEST(Json, ReadsFilesAndSaysWhyNot) {
