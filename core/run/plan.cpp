@@ -197,7 +197,8 @@ bool Plan::shapes(bool settled) {
     if (table.shapes) {
       const auto spec = spec_of(planned);
       quell_error error{};
-      if (table.shapes(node.instance.data(), &spec, out.data(), &error))
+      // Before shapes are settled it may see a guess that it is right to refuse.
+      if (table.shapes(node.instance.data(), &spec, out.data(), &error) && settled)
         throw Error(Exit::plugin, fmt::format("{} ({}): {}", node.name, table.name, error.text));
     }
     int first_output = -1;

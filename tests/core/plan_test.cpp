@@ -49,6 +49,22 @@ struct Half {
   void run(const Tile&) const {}
 };
 
+struct Sorts {
+  In<Features> image;
+  In<Scalar> by;
+  Out<Features> out;
+  void describe(Describe& d) {
+    d.summary("Sorts channels.");
+    d.in(image, "image", "An image.");
+    d.in(by, "by", "What it is sorted by.");
+    d.out(out, "out", "As many channels.");
+  }
+  void shapes(const quell_spec& spec, quell_shape*) const {
+    if (spec.in[0].channels < 2) throw std::runtime_error("there is nothing to sort");
+  }
+  void run(const Tile&) const {}
+};
+
 struct Likeness {
   In<Scalar> image;
   Out<Weight> weight;
@@ -93,12 +109,13 @@ Registry& nodes() {
   static const NodeTable<Blend> blend("blend");
   static const NodeTable<Tint> tint("tint");
   static const NodeTable<Half> half("half");
+  static const NodeTable<Sorts> sorts("sorts");
   static const NodeTable<Likeness> likeness("likeness");
   static const NodeTable<Filter> filter("filter");
   static const NodeTable<Measure> measure("measure");
-  static const quell_node* const list[] = {blend.node(),    tint.node(),   half.node(),
+  static const quell_node* const list[] = {blend.node(),    tint.node(),   half.node(),   sorts.node(),
                                            likeness.node(), filter.node(), measure.node()};
-  static const quell_plugin_table table{QUELL_MAGIC, QUELL_ABI_MAJOR, QUELL_ABI_MINOR, sizeof(quell_plugin_table), 6,
+  static const quell_plugin_table table{QUELL_MAGIC, QUELL_ABI_MAJOR, QUELL_ABI_MINOR, sizeof(quell_plugin_table), 7,
                                         list,        "1.0",           "test"};
   static const bool added = (registry.add_static(&table), true);
   EXPECT_TRUE(added && registry.problems().empty());
@@ -138,6 +155,23 @@ TEST(PlanShapes, OfANodeThatReadsOnlyThePastOfALaterOne) {
     EXPECT_EQ(v.shape.width, 30) << v.name;
     EXPECT_EQ(v.shape.height, 20) << v.name;
     EXPECT_EQ(v.shape.channels, 5) << v.name;
+  }
+}
+
+// A guess at a shape is not the graph's fault.
+TEST(PlanShapes, ANodeIsHeardOnlyOfThoseThatAreSettled) {
+  Graph g;
+  g.inputs = {{"i", QUELL_FEATURES, false}, {"k", QUELL_SCALAR, false}};
+  g.nodes.push_back(make("sorted", "sorts", {{{{1, 0}, 1, {}}}, {{input(1), 0, {}}}}));
+  g.nodes.push_back(make("now", "blend", {{{input(), 0, {}}}, {{{0, 0}, 0, {}}}}, QUELL_FEATURES));
+  g.outputs = {{"o", {{1, 0}, 0, {}}, QUELL_FEATURES, false}};
+  EXPECT_EQ(refusal(g, {{8, 8, 3}, {8, 8, 1}}), "");
+  try {
+    const std::vector<quell_shape> one = {{8, 8, 1}, {8, 8, 1}};
+    const Plan plan(g, one);
+    FAIL() << "no error";
+  } catch (const Error& e) {
+    EXPECT_STREQ(e.what(), "sorted (sorts): there is nothing to sort");
   }
 }
 
