@@ -17,10 +17,11 @@ bool Faults::fresh(TextPosition position, const std::string& text) {
 
 bool Faults::full() const { return errors_ > kMaxErrors; }
 
-void Faults::error(TextPosition position, std::string path, std::string text, std::vector<std::string> notes) {
+void Faults::error(TextPosition position, std::string path, std::string text, std::vector<std::string> notes,
+                   Exit exit) {
   if (!fresh(position, text) || ++errors_ > kMaxErrors + 1) return;
   if (errors_ == kMaxErrors + 1) return diagnostics_.error({}, "", fmt::format("more than {} errors", kMaxErrors));
-  diagnostics_.error(position, std::move(path), std::move(text), std::move(notes));
+  diagnostics_.error(position, std::move(path), std::move(text), std::move(notes), exit);
 }
 
 void Faults::warning(TextPosition position, std::string path, std::string text, std::vector<std::string> notes) {

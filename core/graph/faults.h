@@ -14,7 +14,8 @@ class Faults {
  public:
   explicit Faults(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-  void error(TextPosition, std::string path, std::string text, std::vector<std::string> notes = {});
+  void error(TextPosition, std::string path, std::string text, std::vector<std::string> notes = {},
+             Exit exit = Exit::usage);
   void warning(TextPosition, std::string path, std::string text, std::vector<std::string> notes = {});
   bool ok() const { return errors_ == 0; }
   bool full() const;  // nothing more will be said: no need to look for a suggestion

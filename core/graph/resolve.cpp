@@ -96,7 +96,7 @@ class Resolver {
     const std::string path = n.name + ".type";
     if (const auto* problem = registry_.problem(n.spec->type)) {
       faults_.error(n.spec->type_position, path, fmt::format("the plugin of '{}' cannot be used", n.spec->type),
-                    {fmt::format("{}: {}", problem->file.string(), problem->text)});
+                    {fmt::format("{}: {}", problem->file.string(), problem->text)}, Exit::plugin);
       return;
     }
     if (type_names_.empty()) type_names_ = registry_.names();

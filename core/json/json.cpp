@@ -258,7 +258,7 @@ std::optional<Json> parse_json(std::string name, std::string text, Diagnostics& 
   return std::move(builder.root);
 }
 
-std::optional<Json> parse_json_file(const std::string& path, Diagnostics& diagnostics) {
+std::optional<Json> parse_json_file(const std::string& path, Diagnostics& diagnostics, Exit unreadable) {
   std::ifstream file(path, std::ios::binary);
   std::string text;
   if (file) {
@@ -268,7 +268,7 @@ std::optional<Json> parse_json_file(const std::string& path, Diagnostics& diagno
   }
   if (file.bad() || !file.is_open()) {
     const int error = errno;
-    diagnostics.error({}, "", fmt::format("cannot read '{}': {}", path, std::strerror(error)));
+    diagnostics.error({}, "", fmt::format("cannot read '{}': {}", path, std::strerror(error)), {}, unreadable);
     return std::nullopt;
   }
   return parse_json(path, std::move(text), diagnostics);

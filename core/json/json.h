@@ -42,7 +42,7 @@ struct JsonMember {
 // most), more than 64 levels or 4 million values and numbers that are not finite are errors; nothing is returned then.
 // Bounded: a text of 100 MB of brackets is an error, not a crash. Takes comments and a byte order mark.
 std::optional<Json> parse_json(std::string name, std::string text, Diagnostics&);
-// The same from a file; a missing or unreadable file is an error.
-std::optional<Json> parse_json_file(const std::string& path, Diagnostics&);
+// The same from a file; a missing or unreadable file is an error, of the kind `unreadable`.
+std::optional<Json> parse_json_file(const std::string& path, Diagnostics&, Exit unreadable = Exit::usage);
 
 }  // namespace quell

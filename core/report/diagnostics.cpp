@@ -17,9 +17,14 @@ int Sources::add(std::string name, std::string text) {
 }
 
 std::string Sources::place(TextPosition position) const {
-  if (position.source < 0) return "";
+  const auto [name, line, column] = place_parts(position);
+  return line == 0 ? name : fmt::format("{}:{}:{}", name, line, column);
+}
+
+Sources::Place Sources::place_parts(TextPosition position) const {
+  if (position.source < 0) return {};
   const auto& source = sources_[std::size_t(position.source)];
-  if (source.name.starts_with("--")) return source.name;
+  if (source.name.starts_with("--")) return {source.name};
   const std::size_t offset = std::min(position.offset, source.text.size());
   const auto next = std::ranges::upper_bound(source.lines, offset);
   const std::size_t start = *(next - 1);
@@ -27,12 +32,14 @@ std::string Sources::place(TextPosition position) const {
   // Bytes 10xxxxxx continue a code point; a byte order mark is no column.
   const auto column = std::ranges::count_if(before, [](char c) { return (c & 0xC0) != 0x80; }) + 1;
   const bool mark = start == 0 && before.starts_with("\xEF\xBB\xBF");
-  return fmt::format("{}:{}:{}", source.name, next - source.lines.begin(), column - (mark ? 1 : 0));
+  return {source.name, std::size_t(next - source.lines.begin()), std::size_t(column - (mark ? 1 : 0))};
 }
 
-void Diagnostics::error(TextPosition position, std::string path, std::string text, std::vector<std::string> notes) {
-  list_.push_back({Severity::error, position, std::move(path), std::move(text), std::move(notes)});
+void Diagnostics::error(TextPosition position, std::string path, std::string text, std::vector<std::string> notes,
+                        Exit exit) {
+  list_.push_back({Severity::error, position, std::move(path), std::move(text), std::move(notes), exit});
   ++errors_;
+  exit_ = std::max(exit_, exit);
 }
 
 void Diagnostics::warning(TextPosition position, std::string path, std::string text, std::vector<std::string> notes) {
@@ -50,15 +57,19 @@ std::string Diagnostics::format(const Diagnostic& d) const {
   return out;
 }
 
-std::string Diagnostics::format() const {
+std::vector<const Diagnostic*> Diagnostics::in_order() const {
   std::vector<const Diagnostic*> sorted;
   for (const auto& d : list_) sorted.push_back(&d);
   std::ranges::stable_sort(sorted, {},
                            [](const Diagnostic* d) { return std::pair(d->position.source, d->position.offset); });
-  std::string out;
   std::unordered_set<std::string> seen;
-  for (const auto* d : sorted)
-    if (const auto [text, fresh] = seen.insert(format(*d)); fresh) out += *text;
+  std::erase_if(sorted, [&](const Diagnostic* d) { return !seen.insert(format(*d)).second; });
+  return sorted;
+}
+
+std::string Diagnostics::format() const {
+  std::string out;
+  for (const auto* d : in_order()) out += format(*d);
   return out;
 }
 

@@ -1,6 +1,8 @@
 // Errors and warnings with places, collected by a stage and reported together, as a compiler does.
 #pragma once
 
+#include "core/report/error.h"
+
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -23,6 +25,12 @@ class Sources {
   // "graphs/svgf.json:21:34"; the name alone for an option, which starts with "--"; "" for nowhere. Lines and columns
   // count from 1; columns count UTF-8 code points.
   std::string place(TextPosition) const;
+  // The same for machines: the name, or "" for nowhere; line and column are 0 for an option.
+  struct Place {
+    std::string name;
+    std::size_t line = 0, column = 0;
+  };
+  Place place_parts(TextPosition) const;
 
  private:
   struct Source {
@@ -40,14 +48,18 @@ struct Diagnostic {
   std::string path;                // where in the document: "nodes.level0.in.image"; may be empty
   std::string text;                // what is wrong, with the offending value
   std::vector<std::string> notes;  // what was possible: "it has: image, variance. Did you mean 'image'?"
+  Exit exit = Exit::usage;         // what kind of thing is at fault
 };
 
 class Diagnostics {
  public:
-  void error(TextPosition, std::string path, std::string text, std::vector<std::string> notes = {});
+  void error(TextPosition, std::string path, std::string text, std::vector<std::string> notes = {},
+             Exit exit = Exit::usage);
   void warning(TextPosition, std::string path, std::string text, std::vector<std::string> notes = {});
   bool ok() const { return errors_ == 0; }
   std::size_t errors() const { return errors_; }
+  // The exit code that the errors ask for: of several kinds, the one with the highest number; good without errors.
+  Exit exit() const { return exit_; }
   const std::vector<Diagnostic>& list() const { return list_; }
 
   Sources sources;
@@ -56,10 +68,12 @@ class Diagnostics {
   std::string format(const Diagnostic&) const;
   // All, in order of place within each source, without doubles.
   std::string format() const;
+  std::vector<const Diagnostic*> in_order() const;
 
  private:
   std::vector<Diagnostic> list_;
   std::size_t errors_ = 0;
+  Exit exit_ = Exit::good;
 };
 
 }  // namespace quell
