@@ -171,7 +171,7 @@ std::vector<std::string> channel_names(int type, int channels) {
   return names;
 }
 
-void write_image(const std::string& path, const quell_image& image, int type, const WriteOptions& options) {
+void check_writing(const std::string& path, int type, const WriteOptions& options) {
   const bool exr = path.ends_with(".exr"), png = path.ends_with(".png");
   if (!exr && !png) throw Error(Exit::usage, fmt::format("cannot write '{}': the name must end in .exr or .png", path));
   if (png && type != QUELL_RADIANCE && type != QUELL_ALBEDO && type != QUELL_DISPLAY && type != QUELL_NORMAL) {
@@ -183,6 +183,11 @@ void write_image(const std::string& path, const quell_image& image, int type, co
     throw Error(Exit::usage, fmt::format("no compression is called '{}'; {}", options.compression,
                                          possibilities("there are", options.compression, kCompressions)));
   }
+}
+
+void write_image(const std::string& path, const quell_image& image, int type, const WriteOptions& options) {
+  check_writing(path, type, options);
+  const bool exr = path.ends_with(".exr");
   try {
     Encoder encoder(path, exr ? "openexr" : "png");
     if (exr) {

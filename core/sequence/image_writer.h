@@ -22,6 +22,9 @@ std::span<const std::string> compressions();
 // Channel names that a type is written with and by default read from: R G B, X Y Z, Z, Y…
 std::vector<std::string> channel_names(int type, int channels);
 
+// Throws Error(Exit::usage) where write_image would, for every image of this type.
+void check_writing(const std::string& path, int type, const WriteOptions& options);
+
 // Writes under a temporary name, then renames. By the path's extension: .exr (any type; ids and masks as uint32), or
 // .png (8 bit; radiance and albedo encoded as sRGB, display as it is, normals from [-1,1]). Throws
 // Error(Exit::resources) when the file cannot be written, and Error(Exit::usage) for another extension, a type that PNG

@@ -12,12 +12,14 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <random>
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace quell {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -42,43 +44,62 @@ int register_temporary(const std::string& path) {
   return -1;
 }
 
+[[noreturn]] void fail(const std::string& path, const char* doing) {
+  const int error = errno;
+  throw Error(Exit::resources, fmt::format("cannot {} '{}': {}", doing, path, std::strerror(error)));
+}
+
+// Devices and pipes cannot be renamed over: that would put a file in their place.
+void check_replaceable(const std::string& path) {
+  std::error_code error;
+  const auto status = fs::status(path, error);
+  if (fs::is_directory(status)) errno = EISDIR, fail(path, "write");
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw Error(Exit::resources, fmt::format("cannot write '{}': it is a device or pipe, not a file", path));
+}
+
 }  // namespace
+
+void check_writable(const std::string& path) {
+  check_replaceable(path);
+  std::error_code error;
+  fs::path folder = fs::path(path).parent_path();
+  while (!folder.empty() && !fs::exists(folder, error)) folder = folder.parent_path();
+  if (folder.empty()) folder = ".";
+  if (!fs::is_directory(folder, error))
+    throw Error(Exit::resources, fmt::format("cannot write '{}': '{}' is no folder", path, folder.string()));
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
+    throw Error(Exit::resources,
+                fmt::format("cannot write '{}': the folder '{}': {}", path, folder.string(), std::strerror(errno)));
+}
 
 void remove_temporaries() {
   for (auto& slot : slots)
     if (slot.state == kUsed) unlink(slot.path);
 }
 
-void TemporaryFile::fail(const char* doing) const {
-  const int error = errno;
-  throw Error(Exit::resources, fmt::format("cannot {} '{}': {}", doing, path_, std::strerror(error)));
-}
-
 TemporaryFile::TemporaryFile(std::string path) : path_(std::move(path)) {
-  const std::filesystem::path target = path_;
+  check_replaceable(path_);
+  // A link stays one: what it points to is replaced.
   std::error_code error;
-  if (target.has_parent_path()) std::filesystem::create_directories(target.parent_path(), error);
+  target_ = fs::is_symlink(path_, error) ? fs::weakly_canonical(path_, error).string() : path_;
+  const fs::path target = target_;
+  if (target.has_parent_path()) fs::create_directories(target.parent_path(), error);
   if (error) throw Error(Exit::resources, fmt::format("cannot make the folder of '{}': {}", path_, error.message()));
-  if (std::filesystem::is_directory(target, error)) {
-    errno = EISDIR;
-    fail("write");
+  std::random_device random;
+  for (int tries = 0; tries < 100; ++tries) {
+    // Hidden, so that no pattern finds it.
+    temporary_ = (target.parent_path() / fmt::format(".{}.{:08x}", target.filename().string(), random())).string();
+    if (temporary_.size() >= PATH_MAX) errno = ENAMETOOLONG, fail(path_, "write");
+    // Before it exists, so that no signal comes between.
+    slot_ = register_temporary(temporary_);
+    if (slot_ < 0) errno = EMFILE, fail(path_, "write");
+    file_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_ >= 0) return;
+    slots[std::size_t(slot_)].state = kFree;
+    if (errno != EEXIST) fail(path_, "write");
   }
-  // Hidden, so that no pattern finds it.
-  temporary_ = (target.parent_path() / fmt::format(".{}.XXXXXX", target.filename().string())).string();
-  if (temporary_.size() >= PATH_MAX) {
-    errno = ENAMETOOLONG;
-    fail("write");
-  }
-  // A template for mkostemp has its own name only afterwards; a signal between the two calls would leave an empty file.
-  file_ = mkostemp(temporary_.data(), O_CLOEXEC);
-  if (file_ < 0) fail("write");
-  slot_ = register_temporary(temporary_);
-  if (slot_ < 0) {
-    close(file_);
-    unlink(temporary_.c_str());
-    errno = EMFILE;
-    fail("write");
-  }
+  fail(path_, "write");
 }
 
 TemporaryFile::~TemporaryFile() {
@@ -93,20 +114,16 @@ void TemporaryFile::write(const void* data, std::size_t size) {
   while (size > 0) {
     const ssize_t n = ::write(file_, bytes, size);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail("write");
+    if (n < 0) fail(path_, "write");
     bytes += n, size -= std::size_t(n);
   }
 }
 
 void TemporaryFile::commit() {
-  // mkostemp gives the file to its owner alone; others read results as the user's mask says.
-  const mode_t mask = umask(0);
-  umask(mask);
-  if (fchmod(file_, 0666 & ~mask) != 0) fail("write");
   const int file = file_;
   file_ = -1;
-  if (close(file) != 0) fail("write");
-  if (rename(temporary_.c_str(), path_.c_str()) != 0) fail("rename a finished file to");
+  if (close(file) != 0) fail(path_, "write");
+  if (rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, "rename a finished file to");
   slots[std::size_t(slot_)].state = kFree;
   slot_ = -1;
 }

@@ -7,7 +7,7 @@ namespace quell {
 
 // Created beside `path`, and removed again unless committed: by the destructor, or by remove_temporaries() when the
 // program ends in another way. Makes the folders above `path`. Throws Error(Exit::resources) with the path and the
-// reason.
+// reason; so also when `path` is a folder, a device or a pipe.
 class TemporaryFile {
  public:
   explicit TemporaryFile(std::string path);
@@ -20,12 +20,14 @@ class TemporaryFile {
   void commit();
 
  private:
-  [[noreturn]] void fail(const char* doing) const;
-
-  std::string path_, temporary_;
+  std::string path_, target_, temporary_;
   int file_ = -1;
   int slot_ = -1;
 };
+
+// Throws what making a TemporaryFile of this path would throw, as far as a look can tell, and makes nothing: so that a
+// long run does not fail at its end.
+void check_writable(const std::string& path);
 
 // Removes what TemporaryFiles have not committed. May be called from a signal handler.
 void remove_temporaries();
