@@ -76,13 +76,15 @@ std::optional<std::vector<std::int64_t>> parse_frame_range(std::string_view text
     }
     if (span->complement && span->step == 1) continue;  // leaves out every frame
     const std::int64_t distance = std::abs(span->last - span->first), direction = span->last < span->first ? -1 : 1;
+    // Counted before any is listed.
+    const std::int64_t steps = distance / span->step + 1;
+    if (frames.size() + std::size_t(span->complement ? distance + 1 - steps : steps) > kMostFrames) {
+      problem = fmt::format("'{}' names more than {} frames", part, kMostFrames);
+      return std::nullopt;
+    }
     for (std::int64_t i = 0; i <= distance; i += span->complement ? 1 : span->step) {
       if (span->complement && i % span->step == 0) continue;
       const std::int64_t frame = span->first + direction * i;
-      if (frames.size() == kMostFrames) {
-        problem = fmt::format("'{}' names more than {} frames", part, kMostFrames);
-        return std::nullopt;
-      }
       if (!seen.insert(frame).second) {
         problem = fmt::format("'{}' names frame {} twice", trimmed(text), frame);
         return std::nullopt;

@@ -70,7 +70,7 @@ class Loader {
   // ---- A sequence file ----
 
   void document() {
-    const auto json = parse_json_file(request_.path, diagnostics_);
+    const auto json = parse_json_file(request_.path, diagnostics_, Exit::input);
     if (!json) return;
     if (!json->is(Json::Kind::object)) {
       diagnostics_.error(json->position, "", fmt::format("a sequence is an object, not {}", json->shown()));
