@@ -1,6 +1,8 @@
 // Options and steps that subcommands share.
 #include "apps/quell/command.h"
 
+#include "apps/quell/options.h"
+
 #include "core/graph/params.h"
 #include "core/json/json.h"
 #include "core/report/suggest.h"
@@ -11,11 +13,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace quell {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+bool is_folder(const std::string& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+}  // namespace
 
 #ifdef QUELL_STATIC_PLUGIN_LIST
 #define QUELL_STATIC_PLUGIN(name) extern "C" const quell_plugin_table* quell_plugin_##name(void);
@@ -26,7 +38,10 @@ namespace fs = std::filesystem;
 void PluginOptions::add_to(CLI::App& app) {
   app.add_option("--plugins", folders,
                  "Folder of plugins, searched before those installed; may be given more than once.")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->take_all()
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 void GraphOptions::add_to(CLI::App& app) {
@@ -58,8 +73,11 @@ void SequenceOptions::add_to(CLI::App& app, bool required) {
   app.add_option("--frames", frames, "Frames to run, in place of the sequence's own: 1-20, 1-10x2, 1,5,7-9.")
       ->type_name("RANGE");
   app.add_option("--root", root, "Folder that the sequence's files are relative to.")->type_name("DIR");
-  app.add_option("--missing", missing, "What to do about a missing frame: error, skip, hold or black.")
-      ->type_name("POLICY")
+  app.add_option("--missing", missing,
+                 "What to do about a frame whose files are missing: end with an error, leave it out, hold the frame "
+                 "before, or take it as black.")
+      ->check(one_of({std::begin(kMissingNames), std::end(kMissingNames)}))
+      ->type_name("")
       ->capture_default_str();
   app.add_option("--source", source, "Sets a parameter of the sequence's source node.")
       ->type_name("NAME=VALUE")
@@ -71,6 +89,8 @@ void SequenceOptions::add_to(CLI::App& app, bool required) {
 Commander::Commander(const PluginOptions& plugins)
     : locations_(find_locations(plugins.folders)), registry_(locations_.plugins) {
   quiet_image_threads();
+  for (const auto& folder : plugins.folders)
+    if (!is_folder(folder)) throw Error(Exit::plugin, fmt::format("--plugins {}: there is no such folder", folder));
 #ifdef QUELL_STATIC_PLUGIN_LIST
 #define QUELL_STATIC_PLUGIN(name) registry_.add_static(quell_plugin_##name());
 #include QUELL_STATIC_PLUGIN_LIST
@@ -78,17 +98,43 @@ Commander::Commander(const PluginOptions& plugins)
 #endif
 }
 
+// The file or pattern that SEQUENCE means: a bare name is a built-in sequence when there is one.
+std::optional<std::string> Commander::sequence_path(const SequenceOptions& options) {
+  const auto& name = options.sequence;
+  std::error_code error;
+  if (name.find_first_of("/.#@%") != std::string::npos || fs::exists(name, error)) return name;
+  const auto built_in = locations_.graphs / "sequences";
+  if (const auto file = built_in / (name + ".json"); fs::exists(file, error)) return file.string();
+  std::vector<std::string> names;
+  for (fs::directory_iterator it(built_in, error), end; !error && it != end; it.increment(error))
+    if (it->path().extension() == ".json") names.push_back(it->path().stem().string());
+  std::ranges::sort(names);
+  diagnostics_.error({}, "", fmt::format("there is no sequence '{}'", name),
+                     {possibilities("built in are", name, names),
+                      "others are files (shot.json), patterns (beauty.####.exr) or folders"});
+  return std::nullopt;
+}
+
 std::optional<Sequence> Commander::load(const SequenceOptions& options) {
+  const auto path = sequence_path(options);
+  if (!path) return std::nullopt;
   SequenceRequest request;
-  request.path = options.sequence;
-  // A bare name is a built-in sequence when there is one.
-  if (options.sequence.find_first_of("/.#@%") == std::string::npos)
-    if (const auto built_in = locations_.graphs / "sequences" / (options.sequence + ".json"); fs::exists(built_in))
-      request.path = built_in.string();
+  request.path = *path;
   if (!options.frames.empty()) request.frames = options.frames;
-  if (!options.root.empty()) request.root = options.root;
+  if (!options.root.empty()) {
+    if (!path->ends_with(".json"))
+      throw Error(Exit::usage, fmt::format("--root {}: only a sequence file names files that are relative to a folder",
+                                           options.root));
+    if (!is_folder(options.root))
+      throw Error(Exit::input, fmt::format("--root {}: there is no such folder", options.root));
+    request.root = options.root;
+  }
   request.profiles = locations_.graphs / "profiles";
-  return load_sequence(request, diagnostics_);
+  auto sequence = load_sequence(request, diagnostics_);
+  if (sequence && sequence->source && !options.root.empty())
+    throw Error(Exit::usage,
+                fmt::format("--root {}: this sequence is made by a source node and names no files", options.root));
+  return sequence;
 }
 
 std::optional<Graph> Commander::load(const GraphOptions& options, const Sequence* sequence, GraphInfo* info) {
@@ -112,14 +158,17 @@ std::optional<Graph> Commander::load(const GraphOptions& options, const Sequence
   return load_graph(request, registry_, diagnostics_, info);
 }
 
-Instance Commander::source_instance(const SourceNode& source, const std::vector<std::string>& edits) {
+std::optional<Instance> Commander::source_instance(const SourceNode& source, const std::vector<std::string>& edits) {
   const auto* type = registry_.find(source.type);
   if (!type) {
     const auto* problem = registry_.problem(source.type);
-    if (problem) throw Error(Exit::plugin, fmt::format("{}: {}", problem->file.string(), problem->text));
-    const auto names = registry_.names();
-    throw Error(Exit::usage, fmt::format("the sequence's source '{}' is no node type\n  {}", source.type,
-                                         possibilities("there are", source.type, names)));
+    if (problem)
+      diagnostics_.error(source.position, "source.type", fmt::format("the plugin of '{}' cannot be used", source.type),
+                         {fmt::format("{}: {}", problem->file.string(), problem->text)}, Exit::plugin);
+    else
+      diagnostics_.error(source.position, "source.type", fmt::format("there is no node type '{}'", source.type),
+                         {possibilities("there are", source.type, registry_.names())});
+    return std::nullopt;
   }
   Instance instance(*type);
   Faults faults(diagnostics_);
@@ -144,12 +193,12 @@ Instance Commander::source_instance(const SourceNode& source, const std::vector<
     if (equals == std::string::npos)
       throw Error(Exit::usage, fmt::format("--source {}: expected NAME=VALUE, as in --source width=1920", edits[i]));
     const auto name = edits[i].substr(0, equals), text = edits[i].substr(equals + 1);
-    const int param = type->find_param(name);
-    const int kind = param < 0 ? 0 : type->params()[std::size_t(param)].kind;
-    const bool bare = kind == QUELL_TEXT || kind == QUELL_PATH || kind == QUELL_CHOICE;
-    auto value =
-        parse_json(fmt::format("--source #{}", i + 1), bare ? fmt::format("\"{}\"", text) : text, diagnostics_);
-    if (value) assign_one(name, *value, "source." + name, true);
+    // As with --set: JSON when it is that, else text.
+    Diagnostics quiet;
+    auto value = parse_json("", text, quiet).value_or(Json());
+    if (!quiet.ok()) value.kind = Json::Kind::text, value.text = text;
+    value.position = {diagnostics_.sources.add(fmt::format("--source #{}", i + 1), edits[i]), 0};
+    assign_one(name, value, name, true);
   }
   // Defaults may name installed files too.
   for (std::size_t p = 0; p < type->params().size(); ++p)
@@ -166,19 +215,19 @@ std::unique_ptr<FrameSource> Commander::open(const Sequence& sequence, const Seq
     if (!options.source.empty())
       throw Error(Exit::usage,
                   fmt::format("--source {}: this sequence is made of files and has no source node", options.source[0]));
-    const auto missing = missing_from_name(options.missing);
-    if (!missing)
-      throw Error(Exit::usage, fmt::format("--missing {}: expected error, skip, hold or black", options.missing));
-    return open_sequence(sequence, roles, *missing, diagnostics_);
+    return open_sequence(sequence, roles, missing_from_name(options.missing).value(), diagnostics_);
   }
   auto instance = source_instance(*sequence.source, options.source);
-  if (!diagnostics_.ok()) return nullptr;
-  return std::make_unique<NodeSource>(std::move(instance), sequence.frames, sequence.cuts, threads, cancel);
+  if (!instance || !diagnostics_.ok()) return nullptr;
+  return std::make_unique<NodeSource>(std::move(*instance), sequence.frames, sequence.cuts, threads, cancel);
 }
 
 int Commander::report() {
+  if (diagnostics_.ok())
+    for (const auto& p : registry_.problems())
+      diagnostics_.warning({}, p.file.string(), "passed over, for it cannot be used", {p.text});
   std::fputs(diagnostics_.format().c_str(), stderr);
-  return diagnostics_.ok() ? 0 : int(registry_.problems().empty() ? Exit::usage : Exit::plugin);
+  return int(diagnostics_.exit());
 }
 
 }  // namespace quell

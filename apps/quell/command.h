@@ -41,12 +41,6 @@ struct SequenceOptions {
   void add_to(CLI::App&, bool required);
 };
 
-// An opened sequence.
-struct OpenSequence {
-  Sequence document;
-  std::unique_ptr<FrameSource> frames;
-};
-
 class Commander {
  public:
   explicit Commander(const PluginOptions& plugins);
@@ -60,11 +54,13 @@ class Commander {
   // Opens the frames for what the graph reads.
   std::unique_ptr<FrameSource> open(const Sequence&, const SequenceOptions&, const std::vector<std::string>& roles,
                                     int threads, const std::atomic<bool>* cancel);
-  // Prints what was collected to stderr and gives the exit code: a plugin that would not load decides it.
+  // Prints what was collected to stderr and gives the exit code of the worst of it. Plugins that were passed over
+  // because they would not load are warned about.
   int report();
 
  private:
-  Instance source_instance(const SourceNode&, const std::vector<std::string>& edits);
+  std::optional<std::string> sequence_path(const SequenceOptions&);
+  std::optional<Instance> source_instance(const SourceNode&, const std::vector<std::string>& edits);
 
   Locations locations_;
   Registry registry_;

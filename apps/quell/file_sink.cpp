@@ -3,6 +3,7 @@
 
 #include "core/report/error.h"
 #include "core/report/suggest.h"
+#include "core/sequence/temporary_file.h"
 
 #include <quell/types.h>
 
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 namespace quell {
 
@@ -28,16 +30,34 @@ bool shows(int type) {
 
 }  // namespace
 
-FileSink::FileSink(const Graph& graph, const std::vector<std::string>& wanted, bool several_frames, bool preview,
-                   WriteOptions options)
+FileSink::FileSink(const Graph& graph, const Sequence& sequence, std::span<const std::int64_t> frames,
+                   const std::vector<std::string>& wanted, bool preview, WriteOptions options)
     : options_(std::move(options)) {
-  std::vector<std::string> names, texts(graph.outputs.size());
-  for (const auto& output : graph.outputs) names.push_back(output.name), types_.push_back(output.type);
+  for (const auto& output : graph.outputs) types_.push_back(output.type), names_.push_back(output.name);
+  const auto texts = choose(wanted);
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    patterns_.emplace_back(texts[i]);
+    if (frames.size() > 1 && !patterns_.back().numbered())
+      throw Error(Exit::usage,
+                  fmt::format("-o {}: every frame would go to this one file; put #### where the frame number belongs",
+                              texts[i]));
+    const bool shown = preview && shows(types_[i]) && fs::path(texts[i]).extension() != ".png";
+    previews_.emplace_back(shown ? fs::path(texts[i]).replace_extension(".png").string() : "");
+    check_writing(texts[i], types_[i], options_);
+  }
+  check_files(sequence, frames);
+}
+
+std::vector<std::string> FileSink::choose(const std::vector<std::string>& wanted) const {
+  const auto& names = names_;
+  std::vector<std::string> texts(names.size());
   if (names.empty()) throw Error(Exit::usage, "the graph has no outputs, so there is nothing to write");
   for (const auto& w : wanted) {
+    // A '=' behind a slash belongs to a folder's or file's name.
     const auto equals = w.find('=');
+    const bool named = equals < w.find('/');
     std::size_t index = 0;
-    if (equals != w.npos) {
+    if (named) {
       const auto name = w.substr(0, equals);
       const auto it = std::ranges::find(names, name);
       if (it == names.end())
@@ -46,23 +66,38 @@ FileSink::FileSink(const Graph& graph, const std::vector<std::string>& wanted, b
       index = std::size_t(it - names.begin());
     }
     if (!texts[index].empty())
-      throw Error(Exit::usage, fmt::format("-o {}: output '{}' already goes to {}", w, names[index], texts[index]));
-    texts[index] = equals == w.npos ? w : w.substr(equals + 1);
+      throw Error(Exit::usage, fmt::format("-o {}: output '{}' already goes to {}; write NAME=PATTERN for another", w,
+                                           names[index], texts[index]));
+    texts[index] = named ? w.substr(equals + 1) : w;
+    if (texts[index].empty())
+      throw Error(Exit::usage, fmt::format("-o '{}': names no file; as in -o 'out/color.####.exr'", w));
   }
   if (texts[0].empty()) texts[0] = fmt::format("out/{}.####.exr", names[0]);
-  for (std::size_t i = 0; i < texts.size(); ++i) {
+  for (std::size_t i = 0; i < texts.size(); ++i)
     if (texts[i].empty()) texts[i] = beside(texts[0], names[i]);
-    for (std::size_t j = 0; j < i; ++j)
-      if (texts[i] == texts[j])
-        throw Error(Exit::usage,
-                    fmt::format("outputs '{}' and '{}' would both go to {}", names[j], names[i], texts[i]));
-    patterns_.emplace_back(texts[i]);
-    if (several_frames && !patterns_.back().numbered())
-      throw Error(Exit::usage,
-                  fmt::format("-o {}: every frame would go to this one file; put #### where the frame number belongs",
-                              texts[i]));
-    const bool shown = preview && shows(types_[i]) && fs::path(texts[i]).extension() != ".png";
-    previews_.emplace_back(shown ? fs::path(texts[i]).replace_extension(".png").string() : "");
+  return texts;
+}
+
+void FileSink::check_files(const Sequence& sequence, std::span<const std::int64_t> frames) const {
+  for (const auto* list : {&patterns_, &previews_})
+    for (const auto& pattern : *list)
+      if (!pattern.text().empty()) check_writable(pattern.path(frames.front()));
+  const auto absolute = [](const std::string& path) { return fs::absolute(path).lexically_normal().string(); };
+  for (const std::int64_t frame : frames) {
+    std::map<std::string, std::string> taken;  // file: what it is
+    for (const auto& list : {&sequence.inputs, &sequence.references})
+      for (const auto& input : *list)
+        taken.emplace(absolute(input.file.path(frame)), fmt::format("the sequence's '{}'", input.role));
+    for (const auto* list : {&patterns_, &previews_})
+      for (std::size_t i = 0; i < list->size(); ++i) {
+        const auto& pattern = (*list)[i];
+        if (pattern.text().empty()) continue;
+        const auto what = fmt::format("{} '{}'", list == &previews_ ? "the preview of" : "output", names_[i]);
+        const auto [other, fresh] = taken.emplace(absolute(pattern.path(frame)), what);
+        if (!fresh)
+          throw Error(Exit::usage, fmt::format("{} and {} would both be {}; choose another with -o", other->second,
+                                               what, pattern.text()));
+      }
   }
 }
 
@@ -71,6 +106,7 @@ void FileSink::write(std::int64_t frame, std::span<const quell_image> outputs) {
     write_image(patterns_[i].path(frame), outputs[i], types_[i], options_);
     if (!previews_[i].text().empty()) write_image(previews_[i].path(frame), outputs[i], types_[i], options_);
   }
+  written_.push_back(frame);
 }
 
 }  // namespace quell

@@ -13,7 +13,10 @@ namespace {
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+volatile std::sig_atomic_t last_signal = SIGINT;
+
 void on_signal(int signal) {
+  last_signal = signal;
   if (interrupted.exchange(true)) {
     remove_temporaries();
     _exit(128 + signal);
@@ -30,5 +33,7 @@ const std::atomic<bool>& watch_interrupts() {
   sigaction(SIGTERM, &action, nullptr);
   return interrupted;
 }
+
+int interrupted_exit() { return 128 + last_signal; }
 
 }  // namespace quell

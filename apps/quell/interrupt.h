@@ -7,5 +7,7 @@ namespace quell {
 
 // Installs handlers for SIGINT and SIGTERM and gives the flag that they raise.
 const std::atomic<bool>& watch_interrupts();
+// The exit code of a run that ended so: 128 + the signal.
+int interrupted_exit();
 
 }  // namespace quell

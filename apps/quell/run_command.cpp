@@ -2,14 +2,17 @@
 #include "apps/quell/command.h"
 #include "apps/quell/file_sink.h"
 #include "apps/quell/interrupt.h"
+#include "apps/quell/options.h"
 #include "apps/quell/progress.h"
 #include "apps/quell/run_report.h"
+
+#include "core/sequence/frame_range.h"
+#include "core/sequence/temporary_file.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 
 namespace quell {
 
@@ -24,6 +27,7 @@ struct RunArguments {
   bool full = false, preview = false, quiet = false, times = false;
   int threads = 0, band_rows = 0;
   double max_memory = 0;  // GiB
+  SimdOption simd;
 
   ProgressStyle style() const {
     if (quiet) return ProgressStyle::none;
@@ -41,6 +45,13 @@ WriteOptions write_options(const RunArguments& a, const Graph& graph) {
   return options;
 }
 
+// The same error, and how far the run had come.
+[[noreturn]] void rethrow_with(const Error& e, const FileSink& sink) {
+  const auto& frames = sink.written();
+  if (frames.empty()) throw e;
+  throw Error(e.exit(), fmt::format("{}\n  written before: frames {}", e.what(), frame_range_text(frames)));
+}
+
 void print_repairs(const std::map<std::string, Repairs>& repairs) {
   for (const auto& [role, r] : repairs) {
     if (r.non_finite)
@@ -52,6 +63,7 @@ void print_repairs(const std::map<std::string, Repairs>& repairs) {
 
 int run(const RunArguments& a) {
   const auto& cancel = watch_interrupts();
+  a.simd.apply();
   Commander commander(a.plugins);
   const auto sequence = commander.load(a.sequence);
   const auto graph = commander.load(a.graph, sequence ? &*sequence : nullptr);
@@ -62,7 +74,9 @@ int run(const RunArguments& a) {
   const int code = commander.report();
   if (!frames || code) return code ? code : int(Exit::input);
 
-  FileSink sink(*graph, a.output, frames->frames().size() > 1, a.preview, write_options(a, *graph));
+  FileSink sink(*graph, *sequence, frames->frames(), a.output, a.preview, write_options(a, *graph));
+  if (!a.save_state.empty()) check_writable(a.save_state);
+  if (!a.report.empty() && a.report != "-") check_writable(a.report);
   RunOptions options;
   options.threads = a.threads;
   options.band_rows = a.band_rows;
@@ -71,10 +85,12 @@ int run(const RunArguments& a) {
   options.save_state = a.save_state;
   options.cancel = &cancel;
   RunReport report;
-  {
+  try {
     ProgressPrinter progress(a.style());
     options.progress = [&](const Progress& p) { progress(p); };
     report = run_graph(*graph, *frames, sink, options);
+  } catch (const Error& e) {
+    rethrow_with(e, sink);
   }
   print_repairs(frames->repairs());
   if (!a.quiet) {
@@ -102,7 +118,9 @@ void add_run(CLI::App& app, int& exit) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   sub->add_flag("--float", a->full, "Writes 32-bit floats in place of halves.");
-  sub->add_option("--compression", a->compression, "Of EXR files: none, rle, zips, zip, piz, pxr24, dwaa, dwab.")
+  sub->add_option("--compression", a->compression, "Of EXR files; dwaa and pxr24 lose some precision.")
+      ->check(one_of({compressions().begin(), compressions().end()}))
+      ->type_name("")
       ->capture_default_str();
   sub->add_flag("--preview", a->preview, "Writes a PNG beside each image that an eye can read.");
   sub->add_option("--threads", a->threads, "Threads; 0: every core.")
@@ -118,12 +136,16 @@ void add_run(CLI::App& app, int& exit) {
       ->type_name("FILE")
       ->group("Chunks");
   sub->add_option("--load-state", a->load_state, "Goes on from a saved history.")->type_name("FILE")->group("Chunks");
-  sub->add_option("--progress", a->progress, "auto, json or none.")
-      ->check(CLI::IsMember({"auto", "json", "none"}))
+  a->simd.add_to(*sub);
+  sub->add_option("--progress", a->progress,
+                  "On stderr: a line that renews itself where that is a terminal (auto), a JSON object a frame, or "
+                  "nothing.")
+      ->check(one_of({"auto", "json", "none"}))
+      ->type_name("")
       ->capture_default_str();
   sub->add_flag("--quiet", a->quiet, "Prints errors and warnings only.");
   sub->add_flag("--times", a->times, "Prints the time of each node and the memory.");
-  sub->add_option("--report", a->report, "Writes times, memory and frames as JSON.")->type_name("FILE");
+  sub->add_option("--report", a->report, "Writes times, memory and frames as JSON; - is stdout.")->type_name("FILE");
   a->plugins.add_to(*sub);
   sub->footer(
       "Examples:\n"

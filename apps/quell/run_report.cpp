@@ -1,11 +1,14 @@
 // What a run took.
 #include "apps/quell/run_report.h"
 
+#include "apps/quell/options.h"
 #include "core/sequence/temporary_file.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <nlohmann/json.hpp>
+
+#include <cstdio>
 
 namespace quell {
 
@@ -52,6 +55,7 @@ void write_report(const std::string& path, const Graph& graph, const RunReport& 
   j["fingerprint"] = fingerprint(graph);
   j["frames"] = r.frames;
   j["threads"] = r.threads;
+  j["simd"] = simd_in_use();
   j["resets"] = r.resets;
   j["seconds"] = r.wall;
   for (const auto& [name, wall, cpu] : {std::tuple{"read", r.read_wall, r.read_cpu},
@@ -64,6 +68,10 @@ void write_report(const std::string& path, const Graph& graph, const RunReport& 
   for (const auto& n : r.nodes)
     nodes.push_back({{"name", n.name}, {"type", n.type}, {"ms_per_frame", per_frame(r, n.wall)}});
   const std::string text = j.dump(2) + "\n";
+  if (path == "-") {
+    std::fputs(text.c_str(), stdout);
+    return;
+  }
   TemporaryFile file(path);
   file.write(text.data(), text.size());
   file.commit();

@@ -12,7 +12,7 @@ namespace quell {
 std::string summary_text(const RunReport&);
 // A table: milliseconds a frame and share of each node.
 std::string times_text(const RunReport&);
-// The same as JSON. Throws Error(Exit::resources).
+// The same as JSON, to a file or, for "-", to stdout. Throws Error(Exit::resources).
 void write_report(const std::string& path, const Graph&, const RunReport&);
 
 }  // namespace quell

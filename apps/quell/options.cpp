@@ -1,0 +1,69 @@
+// Words to choose from, and the choice of SIMD target.
+#include "apps/quell/options.h"
+
+#include "core/report/error.h"
+#include "core/report/suggest.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <hwy/targets.h>
+
+#include <cstdint>
+
+namespace quell {
+
+namespace {
+
+struct Target {
+  const char* name;
+  std::int64_t bit;
+};
+
+// Those that <quell/simd.h> compiles kernels for, best first.
+constexpr Target kTargets[] = {{"avx512", HWY_AVX3}, {"avx2", HWY_AVX2}, {"sse4", HWY_SSE4}, {"scalar", HWY_SCALAR}};
+
+// Scalar code is always there, but Highway does not always list it.
+bool present(const Target& target) { return target.bit == HWY_SCALAR || (hwy::SupportedTargets() & target.bit); }
+
+}  // namespace
+
+CLI::Validator one_of(std::vector<std::string> words) {
+  const auto description = fmt::format("{}", fmt::join(words, "|"));
+  return CLI::Validator(
+      [words = std::move(words)](const std::string& word) {
+        if (std::ranges::find(words, word) != words.end()) return std::string();
+        return fmt::format("'{}' is not possible\n  {}", word, possibilities("it takes", word, words));
+      },
+      description, "one_of");
+}
+
+void SimdOption::add_to(CLI::App& app) {
+  app.add_option("--simd", wanted,
+                 "Instruction set of the kernels. Each gives the same bits on every machine that has it.")
+      ->check(one_of({"auto", "scalar", "sse4", "avx2", "avx512"}))
+      ->type_name("")
+      ->capture_default_str()
+      ->group("Tuning");
+}
+
+void SimdOption::apply() const {
+  if (wanted == "auto") return;
+  std::vector<std::string> here;
+  for (const auto& target : kTargets) {
+    if (!present(target)) continue;
+    here.emplace_back(target.name);
+    if (wanted != target.name) continue;
+    hwy::DisableTargets(~target.bit);
+    return;
+  }
+  throw Error(Exit::resources,
+              fmt::format("--simd {}: this machine lacks it; it has: {}", wanted, fmt::join(here, ", ")));
+}
+
+std::string simd_in_use() {
+  for (const auto& target : kTargets)
+    if (present(target)) return target.name;
+  return "scalar";
+}
+
+}  // namespace quell

@@ -1,0 +1,26 @@
+// Parts of options that several subcommands share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace quell {
+
+// Accepts these words only; a message says what there is and what was probably meant.
+CLI::Validator one_of(std::vector<std::string> words);
+
+// --simd: which of the machine's instruction sets the kernels use. Highway keeps its choice in one shared library, so
+// what the program pins holds in every plugin.
+struct SimdOption {
+  std::string wanted = "auto";
+  void add_to(CLI::App&);
+  // Before any plugin runs. Throws Error(Exit::resources) when the machine lacks it.
+  void apply() const;
+};
+
+// The instruction set that kernels run with now: one of the names that --simd takes.
+std::string simd_in_use();
+
+}  // namespace quell
