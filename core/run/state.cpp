@@ -148,6 +148,7 @@ std::int64_t load_state(const fs::path& path, const Graph& graph, Session& sessi
   std::ifstream in(path, std::ios::binary);
   Reader r(in, path);
   if (!in) r.fail(std::strerror(errno));
+  if (std::error_code error; fs::is_directory(path, error)) r.fail("it is a folder");
   char magic[8], print[16];
   r.bytes(magic, 8);
   if (std::memcmp(magic, kMagic, 8)) r.fail("this is no state file of this version");
