@@ -84,6 +84,7 @@ TemporaryFile::TemporaryFile(std::string path) : path_(std::move(path)) {
   std::error_code error;
   target_ = fs::is_symlink(path_, error) ? fs::weakly_canonical(path_, error).string() : path_;
   const fs::path target = target_;
+  error.clear();
   if (target.has_parent_path()) fs::create_directories(target.parent_path(), error);
   if (error) throw Error(Exit::resources, fmt::format("cannot make the folder of '{}': {}", path_, error.message()));
   std::random_device random;
