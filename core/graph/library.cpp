@@ -105,6 +105,7 @@ const Document* Library::open_root(const std::string& graph, const std::optional
     auto layers = flatten(std::move(*json), files);
     if (!layers) return nullptr;
     auto changes = parse_changes(*laid_over, faults_);
+    drop_overridden(layers->changes, *laid_over);
     const auto& document = keep(name, overlay(std::move(layers->json), *laid_over, faults_));
     if (!document) return nullptr;
     auto& all = documents_[name]->changes;
@@ -147,6 +148,7 @@ std::optional<Library::Layers> Library::flatten(Json json, std::vector<std::stri
   auto layers = flatten(std::move(*below), files);
   if (!layers) return std::nullopt;
   auto changes = parse_changes(json, faults_);
+  drop_overridden(layers->changes, json);
   layers->json = overlay(std::move(layers->json), json, faults_);
   layers->changes.insert(layers->changes.end(), std::make_move_iterator(changes.begin()),
                          std::make_move_iterator(changes.end()));

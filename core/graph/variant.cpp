@@ -118,6 +118,33 @@ Json overlay(Json base, const Json& variant, Faults& faults) {
   return base;
 }
 
+namespace {
+
+bool overridden(const Change& change, const Json& over) {
+  const auto below = [](const Json* json, const std::string& key) { return json ? json->find(key) : nullptr; };
+  const auto& target = change.target;
+  if (change.kind == Change::Kind::set && target.size() == 1) return below(over.find("params"), target[0]);
+  const Json* node = below(over.find("nodes"), target[0]);
+  if (!node || node->is(Json::Kind::null)) return node;
+  switch (change.kind) {
+    case Change::Kind::set:
+      return target.size() == 2 && below(below(node, "set"), target[1]);
+    case Change::Kind::wire:
+      return target.size() == 2 && below(below(node, "in"), target[1]);
+    case Change::Kind::swap:
+      return target.size() == 1 && (below(node, "type") || below(node, "graph"));
+    case Change::Kind::bypass:
+      return target.size() == 1 && below(node, "bypass");
+  }
+  return false;
+}
+
+}  // namespace
+
+void drop_overridden(std::vector<Change>& changes, const Json& over) {
+  std::erase_if(changes, [&](const Change& change) { return overridden(change, over); });
+}
+
 std::vector<Change> parse_changes(const Json& variant, Faults& faults) {
   ShortForms forms(faults);
   const auto each = [&](const char* key, auto use) {

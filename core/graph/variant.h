@@ -34,6 +34,10 @@ Edits parse_edits(std::span<const Edit>, Faults&);
 // The short forms "set", "swap", "wire" and "bypass" of a variant, in the order in which they are applied.
 std::vector<Change> parse_changes(const Json& variant, Faults&);
 
+// Removes those changes of a base that `over` writes as keys: the params, set, in, type and bypass that it gives, and
+// all that is addressed to a node that it removes. Short forms are applied after all keys, so they would win over them.
+void drop_overridden(std::vector<Change>&, const Json& over);
+
 // `variant` over `base`: same keys; null removes. Ignores short forms and "base".
 Json overlay(Json base, const Json& variant, Faults&);
 

@@ -69,6 +69,42 @@ TEST(Changes, AreAppliedSwapsFirst) {
   EXPECT_EQ(changes[3].value.integer, 1);
 }
 
+std::vector<std::string> left_under(const char* over) {
+  Diagnostics d;
+  Faults faults(d);
+  auto changes = parse_changes(*parse_json("base", R"({"set": {"p": 1, "a.p": 1, "a.b.p": 1}, "bypass": ["a"],
+      "wire": {"a.in": "x", "a.b.in": "x"}, "swap": {"a": "t", "a.b": "t"}})",
+                                           d),
+                               faults);
+  drop_overridden(changes, *parse_json("over", over, d));
+  static constexpr const char* kKinds[] = {"swap ", "wire ", "bypass ", "set "};
+  std::vector<std::string> left;
+  for (const auto& c : changes) {
+    left.push_back(kKinds[int(c.kind)] + c.target[0]);
+    for (std::size_t i = 1; i < c.target.size(); ++i) left.back() += "." + c.target[i];
+  }
+  EXPECT_EQ(d.format(), "");
+  return left;
+}
+
+TEST(Changes, OfABaseGiveWayToTheKeysOfAVariant) {
+  using Names = std::vector<std::string>;
+  const Names all{"swap a", "swap a.b", "wire a.in", "wire a.b.in", "bypass a", "set p", "set a.p", "set a.b.p"};
+  const auto without = [&](const char* name) {
+    Names some = all;
+    std::erase(some, name);
+    return some;
+  };
+  EXPECT_EQ(left_under(R"({"params": {"q": 1}, "nodes": {"b": null, "a": {"set": {"q": 1}, "in": {"o": "x"}}}})"), all);
+  EXPECT_EQ(left_under(R"({"params": {"p": 2}})"), without("set p"));
+  EXPECT_EQ(left_under(R"({"nodes": {"a": {"set": {"p": 2}}}})"), without("set a.p"));
+  EXPECT_EQ(left_under(R"({"nodes": {"a": {"in": {"in": null}}}})"), without("wire a.in"));
+  EXPECT_EQ(left_under(R"({"nodes": {"a": {"type": "u"}}})"), without("swap a"));
+  EXPECT_EQ(left_under(R"({"nodes": {"a": {"bypass": false}}})"), without("bypass a"));
+  EXPECT_EQ(left_under(R"({"nodes": {"a": null}})"), Names{"set p"});
+  EXPECT_EQ(left_under(R"({"nodes": 1, "params": []})"), all);
+}
+
 TEST(Options, BecomeSourcesOfTheirOwn) {
   Diagnostics d;
   Faults faults(d);
