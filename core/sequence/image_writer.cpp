@@ -62,7 +62,9 @@ class Encoder {
   ~Encoder() {
     output_.reset();  // before the bytes that it writes to
   }
-  void open(const oiio::ImageSpec& spec) {
+  void open(oiio::ImageSpec spec) {
+    spec.attribute("DateTime",
+                   "");  // the time of writing, which OpenImageIO adds, would make equal images unequal files
     output_->set_ioproxy(&bytes_);
     if (!output_->open(path_, spec)) fail(output_->geterror());
   }

@@ -157,6 +157,16 @@ TEST(ImageWriter, KeepsMetadata) {
   EXPECT_EQ(in->spec().get_string_attribute("compression"), "zip");
 }
 
+TEST(ImageWriter, LeavesTheTimeOut) {
+  const Scratch scratch;
+  for (const char* name : {"t.exr", "t.png"}) {
+    write_image(scratch.path(name), test::constant_image(2, 2, 3, 1).view(), QUELL_RADIANCE);
+    const auto in = OIIO::ImageInput::open(scratch.path(name));
+    ASSERT_TRUE(in) << name;
+    EXPECT_EQ(in->spec().get_string_attribute("DateTime"), "") << name;
+  }
+}
+
 TEST(ImageWriter, EncodesPngForTheEye) {
   const Scratch scratch;
   Image image = test::constant_image(4, 1, 3, 0.0f);
