@@ -153,7 +153,7 @@ void add_run(CLI::App& app, int& exit) {
       "  quell run svgf shot.json --frames 1-20 --set alpha=0.1 --tap blend.image\n"
       "  quell run svgf shot.json --frames 0-49 --save-state a.state; quell run svgf shot.json --frames 50-99 "
       "--load-state a.state\n"
-      "  quell run svgf shot.json --swap by_normal=plane_weight --bypass clamp");
+      "  quell run svgf shot.json --swap by_normal=plane_weight --bypass level0.by_luminance");
   sub->callback([a, &exit] { exit = run(*a); });
 }
 
