@@ -69,7 +69,11 @@ bool equal(const std::vector<quell_shape>& a, const std::vector<quell_shape>& b)
 class Run {
  public:
   Run(const Graph& graph, FrameSource& source, FrameSink& sink, const RunOptions& options)
-      : graph_(graph), source_(source), sink_(sink), options_(options), workers_(options.threads, options.cancel) {
+      : graph_(graph),
+        source_(source),
+        sink_(sink),
+        options_(options),
+        workers_(options.threads, options.cancel, options.trace) {
     for (const auto& input : graph.inputs) roles_.push_back(input.name);
     for (const auto& node : graph.nodes) report_.nodes.push_back({node.name, std::string(node.type().name()), 0});
     report_.threads = workers_.threads();
@@ -99,11 +103,14 @@ class Run {
       }
       if (session_->age() == 0) ++report_.resets;
       if (i + 1 < frames.size()) read_ahead(frames[i + 1], 1);
+      if (!options_.overlap) reader_.wait();
       filter(frames[i]);
       writer_.start([this, frame = frames[i], outputs = session_->outputs()] {
         const Stopwatch watch(report_.write_wall, report_.write_cpu);
+        const Trace::Span span(options_.trace, {"write", "file", frame}, Trace::kWriting);
         sink_.write(frame, outputs);
       });
+      if (!options_.overlap) writer_.wait();
       session_->advance();
       ++report_.frames;
       if (options_.progress) options_.progress({frames[i], i + 1, frames.size()});
@@ -137,6 +144,7 @@ class Run {
   void read_ahead(std::int64_t frame, int ahead) {
     reader_.start([this, frame, images = session_->inputs(ahead)] {
       const Stopwatch watch(report_.read_wall, report_.read_cpu);
+      const Trace::Span span(options_.trace, {"read", "file", frame}, Trace::kReading);
       auto shapes = source_.shapes(frame, roles_);
       if (!equal(shapes, session_->input_shapes()))
         pending_shapes_ = std::move(shapes);
@@ -146,9 +154,16 @@ class Run {
   }
 
   void filter(std::int64_t frame) {
-    double unused = 0;
-    const Stopwatch watch(report_.filter_wall, unused);
-    session_->filter(frame, report_.nodes);
+    node_times_.assign(graph_.nodes.size(), 0);
+    const double wall = now(CLOCK_MONOTONIC), cpu = now(CLOCK_PROCESS_CPUTIME_ID);
+    {
+      const Trace::Span span(options_.trace, {"frame", "graph", frame}, Trace::kGraph);
+      session_->filter(frame, node_times_);
+    }
+    const FrameTimes times{frame, now(CLOCK_MONOTONIC) - wall, now(CLOCK_PROCESS_CPUTIME_ID) - cpu, node_times_};
+    report_.filter_wall += times.wall;
+    for (std::size_t n = 0; n < node_times_.size(); ++n) report_.nodes[n].wall += node_times_[n];
+    if (options_.frame_times) options_.frame_times(times);
   }
 
   const Graph& graph_;
@@ -157,6 +172,7 @@ class Run {
   const RunOptions& options_;
   Workers workers_;
   std::vector<std::string> roles_;
+  std::vector<double> node_times_;  // of the frame being filtered
   RunReport report_;
   std::unique_ptr<Session> session_;
   std::optional<std::vector<quell_shape>> pending_shapes_;

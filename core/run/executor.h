@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/graph/graph.h"
+#include "core/run/trace.h"
 #include "core/sequence/frame_source.h"
 
 #include <atomic>
@@ -28,13 +29,23 @@ struct Progress {
   std::size_t done, total;  // frames
 };
 
+// What filtering one frame took, seconds.
+struct FrameTimes {
+  std::int64_t frame;
+  double wall, cpu;               // `cpu` is the process's, with what overlapped
+  std::span<const double> nodes;  // wall, in order; 0 for weight nodes, which run inside of others
+};
+
 struct RunOptions {
   int threads = 0;                               // 0: every core that the process may use
   int band_rows = 0;                             // 0: chosen per node
+  bool overlap = true;                           // false: reads, filters and writes one after the other, to be timed
   std::size_t max_memory = 0;                    // bytes for images; 0: no limit
   std::filesystem::path load_state, save_state;  // empty: none
   const std::atomic<bool>* cancel = nullptr;
   std::function<void(const Progress&)> progress;
+  std::function<void(const FrameTimes&)> frame_times;
+  Trace* trace = nullptr;
 };
 
 struct NodeTime {

@@ -4,6 +4,7 @@
 #include "core/image/image.h"
 #include "core/report/error.h"
 #include "core/run/intervals.h"
+#include "core/run/reads.h"
 
 #include <quell/types.h>
 
@@ -75,22 +76,6 @@ class Fit {
 };
 
 quell_spec spec_of(const PlannedNode& n) { return {n.in.data(), n.in_count.data()}; }
-
-// Calls `f(wire, weight)` for each wire that the node at `index` reads when it runs: its own, and those of its weight
-// nodes.
-template <class F>
-void for_each_read(const Graph& graph, std::size_t index, F&& f) {
-  for (const auto& port : graph.nodes[index].in)
-    for (const auto& wire : port) {
-      const bool weight = wire.from.node >= 0 && graph.nodes[std::size_t(wire.from.node)].type().is_weight();
-      if (!weight) {
-        f(wire);
-        continue;
-      }
-      for (const auto& inner : graph.nodes[std::size_t(wire.from.node)].in)
-        for (const auto& w : inner) f(w);
-    }
-}
 
 }  // namespace
 

@@ -30,6 +30,7 @@ Session::Session(const Graph& graph, std::vector<quell_shape> inputs, Workers& w
       resources_(graph, plan_),
       workers_(&workers),
       wanted_rows_(options.band_rows),
+      trace_(options.trace),
       bound_(graph.nodes.size()) {
   buffers_.forget(ordinal_);
 }
@@ -80,16 +81,17 @@ void Session::bind(std::size_t n) {
     b.out.push_back(buffers_.image(plan_.value_of({int(n), int(o)}), ordinal_, 0));
 }
 
-void Session::filter(std::int64_t frame, std::vector<NodeTime>& times) {
+void Session::filter(std::int64_t frame, std::span<double> times) {
   for (std::size_t n = 0; n < graph_->nodes.size(); ++n) {
     const auto& node = graph_->nodes[n];
     bind(n);
     if (node.type().is_weight()) continue;
+    const Trace::Span span(trace_, {node.name, node.type().name(), frame}, Trace::kGraph);
     const auto begin = std::chrono::steady_clock::now();
     const auto& planned = plan_.nodes()[n];
     const quell_tile tile{bound_[n].in.data(), bound_[n].out.data(), 0, 0, 0, 0, frame};
     workers_->run(node, resources_.of(n), tile, planned.tiled, plan_.band_rows(n, workers_->threads(), wanted_rows_));
-    times[n].wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    times[n] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 }
 

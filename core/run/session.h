@@ -7,6 +7,7 @@
 #include "core/run/workers.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace quell {
@@ -20,8 +21,8 @@ class Session {
 
   // Images of the graph's inputs for the frame `ahead` frames after the current one: where a reader fills them.
   std::vector<quell_image> inputs(int ahead) const;
-  // Filters the current frame. Its inputs have been filled.
-  void filter(std::int64_t frame, std::vector<NodeTime>& times);
+  // Filters the current frame. Its inputs have been filled. Gives the wall time of each node, seconds.
+  void filter(std::int64_t frame, std::span<double> times);
   // Images of the graph's outputs for the current frame.
   std::vector<quell_image> outputs() const;
   // On to the next frame.
@@ -52,6 +53,7 @@ class Session {
   Resources resources_;
   Workers* workers_;
   int wanted_rows_;
+  Trace* trace_;
   std::vector<Bound> bound_;
   std::int64_t ordinal_ = 0, age_ = 0;
 };

@@ -42,11 +42,12 @@ class FlushDenormals {
 
 }  // namespace
 
-Workers::Workers(int threads, const std::atomic<bool>* cancel)
+Workers::Workers(int threads, const std::atomic<bool>* cancel, Trace* trace)
     : threads_(threads > 0 ? threads : usable_cores()),
       allowed_(tbb::global_control::max_allowed_parallelism, std::size_t(threads_)),
       arena_(threads_),
-      cancel_(cancel) {}
+      cancel_(cancel),
+      trace_(trace) {}
 
 void Workers::run(const GraphNode& node, const void* resource, quell_tile tile, int tiled, int band_rows) {
   const int width = tile.out[tiled].width, height = tile.out[tiled].height;
@@ -62,6 +63,7 @@ void Workers::run(const GraphNode& node, const void* resource, quell_tile tile, 
     t.x0 = 0, t.x1 = width;
     t.y0 = band * band_rows, t.y1 = std::min(height, t.y0 + band_rows);
     quell_error error{};
+    const Trace::Span span(trace_, {node.name, node.type().name(), tile.frame, t.y0, t.y1});
     if (node.type().table().run(node.instance.data(), resource, &t, &error) == 0) return;
     const std::scoped_lock lock(mutex);
     failed = true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/graph/graph.h"
+#include "core/run/trace.h"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -13,8 +14,8 @@ namespace quell {
 
 class Workers {
  public:
-  // threads <= 0: one for each core that this process may use.
-  explicit Workers(int threads, const std::atomic<bool>* cancel = nullptr);
+  // threads <= 0: one for each core that this process may use. Bands become events of the trace.
+  explicit Workers(int threads, const std::atomic<bool>* cancel = nullptr, Trace* trace = nullptr);
   int threads() const { return threads_; }
 
   // Runs a node over all rows of output `tiled`, in bands. `tile` has inputs, outputs and frame. Throws
@@ -27,6 +28,7 @@ class Workers {
   tbb::global_control allowed_;  // as many as were asked for, even beyond the cores
   tbb::task_arena arena_;
   const std::atomic<bool>* cancel_;
+  Trace* trace_;
 };
 
 }  // namespace quell
