@@ -73,5 +73,6 @@ void add_check(CLI::App&, int& exit);
 void add_nodes(CLI::App&, int& exit);
 void add_graph(CLI::App&, int& exit);
 void add_plan(CLI::App&, int& exit);
+void add_bench(CLI::App&, int& exit);
 
 }  // namespace quell

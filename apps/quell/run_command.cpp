@@ -23,7 +23,7 @@ struct RunArguments {
   GraphOptions graph;
   SequenceOptions sequence;
   std::vector<std::string> output;
-  std::string compression = "zip", progress = "auto", save_state, load_state, report;
+  std::string compression = "zip", progress = "auto", save_state, load_state, report, trace;
   bool full = false, preview = false, quiet = false, times = false;
   int threads = 0, band_rows = 0;
   double max_memory = 0;  // GiB
@@ -84,6 +84,8 @@ int run(const RunArguments& a) {
   options.load_state = a.load_state;
   options.save_state = a.save_state;
   options.cancel = &cancel;
+  Trace trace;
+  if (!a.trace.empty()) options.trace = &trace;
   RunReport report;
   try {
     ProgressPrinter progress(a.style());
@@ -100,6 +102,7 @@ int run(const RunArguments& a) {
   }
   if (a.times) fmt::print(stderr, "{}", times_text(report));
   if (!a.report.empty()) write_report(a.report, *graph, report);
+  if (!a.trace.empty()) trace.write(a.trace);
   return 0;
 }
 
@@ -146,6 +149,7 @@ void add_run(CLI::App& app, int& exit) {
   sub->add_flag("--quiet", a->quiet, "Prints errors and warnings only.");
   sub->add_flag("--times", a->times, "Prints the time of each node and the memory.");
   sub->add_option("--report", a->report, "Writes times, memory and frames as JSON; - is stdout.")->type_name("FILE");
+  sub->add_option("--trace", a->trace, "Writes what ran when, for chrome://tracing or Perfetto.")->type_name("FILE");
   a->plugins.add_to(*sub);
   sub->footer(
       "Examples:\n"

@@ -1,6 +1,8 @@
 // Events of a run as a timeline.
 #include "core/run/trace.h"
 
+#include "core/sequence/temporary_file.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -62,6 +64,13 @@ std::string Trace::json() const {
     out += "}}";
   }
   return out + "\n]}\n";
+}
+
+void Trace::write(const std::string& path) const {
+  const auto text = json();
+  TemporaryFile file(path);
+  file.write(text.data(), text.size());
+  file.commit();
 }
 
 }  // namespace quell

@@ -47,6 +47,8 @@ class Trace {
 
   // The trace event format: complete events in microseconds since the trace was made, and a name for each track.
   std::string json() const;
+  // The same to a file. Throws Error(Exit::resources).
+  void write(const std::string& path) const;
 
  private:
   using Clock = std::chrono::steady_clock;
