@@ -46,6 +46,21 @@ void Diagnostics::warning(TextPosition position, std::string path, std::string t
   list_.push_back({Severity::warning, position, std::move(path), std::move(text), std::move(notes)});
 }
 
+namespace {
+
+// A stranger's file may hold bytes that drive a terminal; a message shows them in place of doing what they say.
+std::string printable(const std::string& text) {
+  std::string out;
+  for (const char c : text)
+    if ((c >= 0 && c < ' ' && c != '\n') || c == 0x7F)
+      out += fmt::format("\\x{:02x}", int(c));
+    else
+      out += c;
+  return out;
+}
+
+}  // namespace
+
 std::string Diagnostics::format(const Diagnostic& d) const {
   std::string out = sources.place(d.position);
   if (!out.empty()) out += ": ";
@@ -54,7 +69,7 @@ std::string Diagnostics::format(const Diagnostic& d) const {
   out += d.text + '\n';
   for (const auto& note : d.notes)
     if (!note.empty()) out += "  " + note + '\n';
-  return out;
+  return printable(out);
 }
 
 std::vector<const Diagnostic*> Diagnostics::in_order() const {

@@ -282,10 +282,10 @@ int Plan::band_rows(std::size_t node, int threads, int wanted) const {
   if (wanted > 0) return std::min(wanted, height);
   // Rows by residue need tall bands (8 steps); else bands are small enough to balance and tall enough to reuse their
   // halo.
-  const int rows = std::max(32, 8 * planned.step);
-  const int bands = std::max(1, (height + rows - 1) / rows);
-  const int balanced = (bands + threads - 1) / threads * threads;
-  return std::max(1, (height + balanced - 1) / balanced);
+  const int least = std::max(32, 8 * planned.step);
+  int bands = std::max(1, height / least);
+  if (bands > threads) bands = bands / threads * threads;  // as many for each thread, never smaller than that
+  return (height + bands - 1) / bands;
 }
 
 std::string Plan::describe() const {

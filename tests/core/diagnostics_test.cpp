@@ -52,5 +52,11 @@ TEST(Diagnostics, SortsByPlaceAndDropsDoubles) {
   EXPECT_FALSE(d.ok());
 }
 
+TEST(Diagnostics, ShowsControlBytesInPlaceOfObeyingThem) {
+  Diagnostics d;
+  d.error({}, "nodes.\x1b[31mx", "node '\x1b[31mx\x7f' is\tred", {"note\x07"});
+  EXPECT_EQ(d.format(), "error: nodes.\\x1b[31mx: node '\\x1b[31mx\\x7f' is\\x09red\n  note\\x07\n");
+}
+
 }  // namespace
 }  // namespace quell

@@ -120,7 +120,7 @@ class NodeTable {
     });
   }
   static void weigh(const void* instance, const void* resource, const quell_input* in, const quell_run* run,
-                    float* exponent) {
+                    float* exponent) noexcept {
     with_resource(resource, [&](const auto&... r) { self(instance).weigh(in, *run, exponent, r...); });
   }
 
