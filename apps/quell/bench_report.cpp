@@ -36,7 +36,7 @@ std::string timing_text(const Timing& m) {
   out += fmt::format("half of the frames took {:.2f} to {:.2f} ms; CPU {:.2f} ms a frame ({:.2f} of {} threads busy)\n",
                      m.ms.lower, m.ms.upper, m.cpu_ms.median, m.ms.median > 0 ? m.cpu_ms.median / m.ms.median : 0,
                      m.threads);
-  out += fmt::format("reading, apart: {:.2f} ms a frame; history began anew {} times\n", m.read_ms, m.resets);
+  out += fmt::format("reading, apart: {:.2f} ms a frame; frames without history: {}\n", m.read_ms, m.resets);
   return out + fmt::format("images {:.0f} MiB; peak of the process, input included, {:.0f} MiB\n",
                            double(m.image_bytes) / kMiB, double(m.peak_bytes) / kMiB);
 }

@@ -71,7 +71,10 @@ void SequenceOptions::add_to(CLI::App& app, bool required) {
   option->type_name("SEQUENCE");
   if (required) option->required();
   app.add_option("--frames", frames, "Frames to run, in place of the sequence's own: 1-20, 1-10x2, 1,5,7-9.")
-      ->type_name("RANGE");
+      ->type_name("RANGE")
+      ->check([](const std::string& text) {
+        return std::string(text.empty() ? "is empty; leave it out for all frames" : "");
+      });
   app.add_option("--root", root, "Folder that the sequence's files are relative to.")->type_name("DIR");
   app.add_option("--missing", missing,
                  "What to do about a frame whose files are missing: end with an error, leave it out, hold the frame "
@@ -134,6 +137,8 @@ std::optional<Sequence> Commander::load(const SequenceOptions& options) {
   if (sequence && sequence->source && !options.root.empty())
     throw Error(Exit::usage,
                 fmt::format("--root {}: this sequence is made by a source node and names no files", options.root));
+  // Before the graph is checked against what the source gives, or every one of its inputs would be missing.
+  if (sequence && sequence->source && !source_type(*sequence->source)) return std::nullopt;
   return sequence;
 }
 
@@ -152,24 +157,27 @@ std::optional<Graph> Commander::load(const GraphOptions& options, const Sequence
   if (sequence) {
     request.roles = sequence->roles();
     if (sequence->source)
-      if (const auto* type = registry_.find(sequence->source->type))
-        for (const auto& port : type->outputs()) (*request.roles)[port.name] = port.type;
+      for (const auto& port : registry_.find(sequence->source->type)->outputs())
+        (*request.roles)[port.name] = port.type;
   }
   return load_graph(request, registry_, diagnostics_, info);
 }
 
+// The type of a source node; reports when there is none.
+const NodeType* Commander::source_type(const SourceNode& source) {
+  if (const auto* type = registry_.find(source.type)) return type;
+  if (const auto* problem = registry_.problem(source.type))
+    diagnostics_.error(source.position, "source.type", fmt::format("the plugin of '{}' cannot be used", source.type),
+                       {fmt::format("{}: {}", problem->file.string(), problem->text)}, Exit::plugin);
+  else
+    diagnostics_.error(source.position, "source.type", fmt::format("there is no node type '{}'", source.type),
+                       {possibilities("there are", source.type, registry_.names())});
+  return nullptr;
+}
+
 std::optional<Instance> Commander::source_instance(const SourceNode& source, const std::vector<std::string>& edits) {
-  const auto* type = registry_.find(source.type);
-  if (!type) {
-    const auto* problem = registry_.problem(source.type);
-    if (problem)
-      diagnostics_.error(source.position, "source.type", fmt::format("the plugin of '{}' cannot be used", source.type),
-                         {fmt::format("{}: {}", problem->file.string(), problem->text)}, Exit::plugin);
-    else
-      diagnostics_.error(source.position, "source.type", fmt::format("there is no node type '{}'", source.type),
-                         {possibilities("there are", source.type, registry_.names())});
-    return std::nullopt;
-  }
+  const auto* type = source_type(source);
+  if (!type) return std::nullopt;
   Instance instance(*type);
   Faults faults(diagnostics_);
   const Library library(locations_.graphs, faults);

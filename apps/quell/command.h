@@ -60,6 +60,7 @@ class Commander {
 
  private:
   std::optional<std::string> sequence_path(const SequenceOptions&);
+  const NodeType* source_type(const SourceNode&);
   std::optional<Instance> source_instance(const SourceNode&, const std::vector<std::string>& edits);
 
   Locations locations_;

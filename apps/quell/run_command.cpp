@@ -95,6 +95,8 @@ int run(const RunArguments& a) {
     rethrow_with(e, sink);
   }
   print_repairs(frames->repairs());
+  for (const auto frame : report.resized)
+    fmt::print(stderr, "warning: frame {} has another size than the frame before: its history began anew\n", frame);
   if (!a.quiet) {
     fmt::print(stderr, "{}", summary_text(report));
     for (std::size_t i = 0; i < sink.patterns().size(); ++i)

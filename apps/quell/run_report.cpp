@@ -29,7 +29,7 @@ double per_frame(const RunReport& r, double seconds) { return r.frames ? 1e3 * s
 
 std::string summary_text(const RunReport& r) {
   return fmt::format(
-      "{} frames in {:.2f} s on {} threads, {:.1f} ms a frame; history began anew {} times\n"
+      "{} frames in {:.2f} s on {} threads, {:.1f} ms a frame; frames without history: {}\n"
       "ms a frame, wall (cpu): read {:.1f} ({:.1f}), filter {:.1f} ({:.1f}), write {:.1f} ({:.1f}); images {:.0f} MiB, "
       "peak {:.0f} MiB\n",
       r.frames, r.wall, r.threads, per_frame(r, r.wall), r.resets, per_frame(r, r.read_wall), per_frame(r, r.read_cpu),

@@ -92,6 +92,7 @@ class Run {
       reader_.wait();
       const bool new_size = pending_shapes_.has_value();
       if (new_size) {
+        report_.resized.push_back(frames[i]);
         // The frame has another size: a new plan, and the frame is read into it.
         writer_.wait();
         enter(*std::exchange(pending_shapes_, std::nullopt));

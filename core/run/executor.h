@@ -59,9 +59,10 @@ struct RunReport {
   double wall = 0;                                        // seconds, all
   double read_wall = 0, filter_wall = 0, write_wall = 0;  // each on its own clock; they overlap
   double read_cpu = 0, filter_cpu = 0, write_cpu = 0;
-  std::size_t plan_bytes = 0;   // images of the largest plan
-  std::size_t resets = 0;       // frames that began without history
-  std::vector<NodeTime> nodes;  // in order
+  std::size_t plan_bytes = 0;         // images of the largest plan
+  std::size_t resets = 0;             // frames that began without history
+  std::vector<std::int64_t> resized;  // frames whose size differs from that of the frame before
+  std::vector<NodeTime> nodes;        // in order
 };
 
 // Throws Error. What was written before an error stays; a frame is never half written.
