@@ -4,9 +4,12 @@
 #include "tests/support/run_node.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <glm/glm.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,9 +22,17 @@ inline const std::string kRoom = QUELL_TEST_SOURCE "/graphs/scenes/room.json";
 
 enum Output { kColor, kAlbedo, kNormal, kDepth, kPosition, kMotion, kId, kEmission, kCamera, kTransforms };
 
-// A scene file that lives as long as the test program's folder for such files.
+// A scene file of this process's own, for tests run beside each other; removed when the process ends.
 inline std::string scene_file(const std::string& name, const std::string& text) {
-  const std::string file = testing::TempDir() + "quell_path_tracer_" + name + ".json";
+  struct Files {
+    std::set<std::string> names;
+    ~Files() {
+      for (const auto& n : names) std::remove(n.c_str());
+    }
+  };
+  static Files files;
+  const std::string file = testing::TempDir() + "quell_path_tracer_" + name + "_" + std::to_string(getpid()) + ".json";
+  files.names.insert(file);
   std::ofstream(file) << text;
   return file;
 }

@@ -84,6 +84,7 @@ std::vector<Mistake> mistakes() {
        {"run", "svgf", "room", "--frames", "1-"},
        2,
        {"--frames: error: '1-' is no frame range", "first-last"}},
+      {"NoFrames", {"run", "svgf", "room", "--frames", ""}, 2, {"--frames: is empty"}},
       {"EmptyFrames", {"run", "svgf", "room", "--frames", ","}, 2, {"--frames: error: '' is no frame range"}},
       {"FrameTwice", {"run", "svgf", "room", "--frames", "1-3,2"}, 2, {"'1-3,2' names frame 2 twice"}},
       {"TooManyFrames", {"run", "svgf", "room", "--frames", "0-99999999"}, 2, {"more than 10000000 frames"}},

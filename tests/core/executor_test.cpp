@@ -195,7 +195,9 @@ TEST(Executor, ANewSizeEndsHistory) {
   Frames source(0, 5);
   source.wide_from = 4;
   Keep sink;
-  EXPECT_EQ(run_graph(accumulator(), source, sink, {}).resets, 2u);
+  const auto report = run_graph(accumulator(), source, sink, {});
+  EXPECT_EQ(report.resets, 2u);
+  EXPECT_EQ(report.resized, std::vector<std::int64_t>{4});
   EXPECT_EQ(sink.frames[3].second[0].width(), 37);
   EXPECT_EQ(sink.frames[4].second[0].width(), 74);
   EXPECT_EQ(sink.at(4, 0, 0, 0), 4.0f);

@@ -2,6 +2,7 @@
 #include "core/json/json.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -142,7 +143,7 @@ TEST(Json, BoundsTheNumberOfDuplicateKeys) {
 
 TEST(Json, ReadsFilesAndSaysWhyNot) {
   namespace fs = std::filesystem;
-  const auto folder = fs::path(testing::TempDir()) / "quell_json_test";
+  const auto folder = fs::path(testing::TempDir()) / ("quell_json_test_" + std::to_string(getpid()));
   fs::create_directories(folder);
   const auto file = folder / "x.json";
   std::ofstream(file) << "{\"a\": 1}";

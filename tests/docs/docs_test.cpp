@@ -1,5 +1,6 @@
 // The documents speak of what is there: their graphs are good, and their links lead somewhere.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -53,7 +54,7 @@ std::vector<fs::path> documents() {
 }
 
 TEST(Docs, HaveGraphsThatAreGood) {
-  const fs::path folder = fs::path(testing::TempDir()) / "quell_docs_graphs";
+  const fs::path folder = fs::path(testing::TempDir()) / ("quell_docs_graphs_" + std::to_string(getpid()));
   fs::remove_all(folder);
   fs::copy(kSource / "graphs", folder, fs::copy_options::recursive);
   int graphs = 0;
