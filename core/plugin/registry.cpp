@@ -39,6 +39,7 @@ const NodeType* Registry::find(std::string_view name) {
     if (!fs::exists(file, error)) continue;
     open(file);
     if (const auto it = by_name_.find(name); it != by_name_.end()) return it->second;
+    if (!problem(name)) problems_.push_back({file, fmt::format("holds no node type '{}'", name)});
   }
   return nullptr;
 }
@@ -70,8 +71,10 @@ void Registry::open(const fs::path& file) {
   // Never closed: node types point into the library, and threads may still be in its thread-local destructors at exit.
   void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) {
-    const char* why = dlerror();
-    problems_.push_back({file, why ? why : "cannot be opened"});
+    const char* error = dlerror();
+    std::string why = error ? error : "cannot be opened";
+    if (const auto name = file.string() + ": "; why.starts_with(name)) why.erase(0, name.size());
+    problems_.push_back({file, std::move(why)});
     return;
   }
   const auto function = reinterpret_cast<quell_plugin_function>(dlsym(library, "quell_plugin"));

@@ -56,8 +56,8 @@ TEST(Registry, RefusesBrokenTables) {
 
 TEST(Registry, RefusesWhatIsNoPlugin) {
   EXPECT_EQ(refusal("no_symbol"), "exports no function quell_plugin: not a Quell plugin");
-  EXPECT_EQ(refusal("not_a_library"), (kFolder / "not_a_library.so").string() + ": file too short");
-  EXPECT_EQ(refusal("unresolved"), (kFolder / "unresolved.so").string() + ": undefined symbol: nobody_defines_this");
+  EXPECT_EQ(refusal("not_a_library"), "file too short");
+  EXPECT_EQ(refusal("unresolved"), "undefined symbol: nobody_defines_this");
 }
 
 TEST(Registry, NamesBothFilesOfANodeThatIsThereTwice) {
