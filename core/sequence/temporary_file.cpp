@@ -80,11 +80,13 @@ void remove_temporaries() {
 
 TemporaryFile::TemporaryFile(std::string path) : path_(std::move(path)) {
   check_replaceable(path_);
-  // A link stays one: what it points to is replaced.
+  // A link stays one: what it points to is replaced, or made.
+  fs::path target = path_;
   std::error_code error;
-  target_ = fs::is_symlink(path_, error) ? fs::weakly_canonical(path_, error).string() : path_;
-  const fs::path target = target_;
+  for (int links = 0; links < 40 && fs::is_symlink(target, error); ++links)
+    target = target.parent_path() / fs::read_symlink(target, error);
   error.clear();
+  target_ = target.string();
   if (target.has_parent_path()) fs::create_directories(target.parent_path(), error);
   if (error) throw Error(Exit::resources, fmt::format("cannot make the folder of '{}': {}", path_, error.message()));
   std::random_device random;
