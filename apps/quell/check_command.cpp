@@ -61,8 +61,8 @@ std::string text_of(const std::string& name, const Findings& f) {
                                 fmt::join(inputs, ", "), fmt::join(f.info.outputs, ", "));
   for (const auto& p : f.info.params) out += fmt::format("  param {} = {}  {}\n", p.name, p.value, p.doc);
   if (f.frames)
-    out += fmt::format("  {} frames: {}; {:.1f} MiB for images\n", f.frames->size(), frame_range_text(*f.frames),
-                       double(f.bytes) / 1048576.0);
+    out += fmt::format("  {} frame{}: {}; {:.1f} MiB for images\n", f.frames->size(), f.frames->size() == 1 ? "" : "s",
+                       frame_range_text(*f.frames), double(f.bytes) / 1048576.0);
   return out;
 }
 

@@ -1,5 +1,6 @@
 // quell graph: draws a graph.
 #include "apps/quell/command.h"
+#include "apps/quell/options.h"
 
 #include "core/graph/draw.h"
 
@@ -32,8 +33,9 @@ void add_graph(CLI::App& app, int& exit) {
   auto* sub = app.add_subcommand("graph", "Draws a graph, with its subgraphs expanded.");
   auto a = std::make_shared<GraphArguments>();
   a->graph.add_to(*sub);
-  sub->add_option("--format", a->format, "dot, mermaid or svg.")
-      ->check(CLI::IsMember({"dot", "mermaid", "svg"}))
+  sub->add_option("--format", a->format, "How: as text for Graphviz or Mermaid, or as a picture.")
+      ->check(one_of({"dot", "mermaid", "svg"}))
+      ->type_name("")
       ->capture_default_str();
   a->plugins.add_to(*sub);
   sub->footer("Examples:\n  quell graph svgf --format svg > svgf.svg\n  quell graph svgf | dot -Tpdf > svgf.pdf");

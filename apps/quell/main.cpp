@@ -61,6 +61,8 @@ int run(int argc, char** argv) {
   CLI::App app("Denoises path-traced image sequences with graphs of plugin nodes.", "quell");
   app.set_version_flag("--version", "quell " QUELL_VERSION);
   app.require_subcommand(1);
+  // So that a script's options can be overridden behind them.
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.footer(
       "Examples:\n"
       "  quell run svgf room -o 'out/color.####.exr' --preview\n"

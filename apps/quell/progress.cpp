@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -27,7 +28,7 @@ ProgressPrinter::~ProgressPrinter() {
 void ProgressPrinter::operator()(const Progress& p) {
   if (style_ == ProgressStyle::none) return;
   const auto now = std::chrono::steady_clock::now();
-  const double elapsed = std::chrono::duration<double>(now - begin_).count();
+  const double elapsed = std::max(1e-9, std::chrono::duration<double>(now - begin_).count());
   const double rate = double(p.done) / elapsed, left = double(p.total - p.done) / rate;
   if (style_ == ProgressStyle::json) {
     fmt::print(

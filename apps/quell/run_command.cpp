@@ -77,6 +77,7 @@ int run(const RunArguments& a) {
   FileSink sink(*graph, *sequence, frames->frames(), a.output, a.preview, write_options(a, *graph));
   if (!a.save_state.empty()) check_writable(a.save_state);
   if (!a.report.empty() && a.report != "-") check_writable(a.report);
+  if (!a.trace.empty()) check_writable(a.trace);
   RunOptions options;
   options.threads = a.threads;
   options.band_rows = a.band_rows;
@@ -97,7 +98,7 @@ int run(const RunArguments& a) {
   print_repairs(frames->repairs());
   for (const auto frame : report.resized)
     fmt::print(stderr, "warning: frame {} has another size than the frame before: its history began anew\n", frame);
-  if (!a.quiet) {
+  if (!a.quiet && a.style() != ProgressStyle::json) {
     fmt::print(stderr, "{}", summary_text(report));
     for (std::size_t i = 0; i < sink.patterns().size(); ++i)
       fmt::print(stderr, "{}: {}\n", graph->outputs[i].name, sink.patterns()[i].text());
