@@ -2,6 +2,7 @@
 #include "tests/support/run_program.h"
 
 #include <fcntl.h>
+#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -10,6 +11,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <stdexcept>
 #include <thread>
 
@@ -26,21 +28,59 @@ std::string content(int file) {
   return text;
 }
 
-// In the child; gives back only when something failed.
-void become(const std::vector<std::string>& command, const ProgramOptions& options, int out, int err) {
-  if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) return;
-  const int in = open("/dev/null", O_RDONLY);
-  if (!options.out.empty()) out = open(options.out.c_str(), O_WRONLY);
-  if (dup2(in, 0) < 0 || dup2(out, 1) < 0 || dup2(err, 2) < 0) return;
-  for (const auto& [name, value] : options.environment) setenv(name.c_str(), value.c_str(), 1);
-  if (options.file_bytes >= 0) {
-    const rlimit limit{rlim_t(options.file_bytes), rlim_t(options.file_bytes)};
-    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return;
+// Strings as C wants them.
+std::vector<char*> pointers(const std::vector<std::string>& strings) {
+  std::vector<char*> list;
+  for (const auto& s : strings) list.push_back(const_cast<char*>(s.c_str()));
+  list.push_back(nullptr);
+  return list;
+}
+
+std::vector<std::string> environment_with(const std::map<std::string, std::string>& more) {
+  std::vector<std::string> all;
+  for (char** entry = environ; *entry; ++entry) {
+    const std::string text = *entry;
+    if (!more.contains(text.substr(0, text.find('=')))) all.push_back(text);
   }
-  std::vector<char*> arguments;
-  for (const auto& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
-  arguments.push_back(nullptr);
-  execv(arguments[0], arguments.data());
+  for (const auto& [name, value] : more) all.push_back(name + "=" + value);
+  return all;
+}
+
+// The limit on files' sizes that children inherit, for as long as this lives. This process writes none meanwhile.
+class FileLimit {
+ public:
+  explicit FileLimit(long bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes < 0 ? before_.rlim_cur : rlim_t(bytes), before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
+  FileLimit(const FileLimit&) = delete;
+  FileLimit& operator=(const FileLimit&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+// Without fork: libraries that this process has loaded may hang on to threads in its handlers.
+pid_t spawn(const std::vector<std::string>& command, const ProgramOptions& options, int out, int err) {
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  if (!options.folder.empty()) posix_spawn_file_actions_addchdir_np(&files, options.folder.c_str());
+  posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
+  if (options.out.empty())
+    posix_spawn_file_actions_adddup2(&files, out, 1);
+  else
+    posix_spawn_file_actions_addopen(&files, 1, options.out.c_str(), O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&files, err, 2);
+  const auto environment = environment_with(options.environment);
+  const FileLimit limit(options.file_bytes);
+  pid_t id = -1;
+  const int failed =
+      posix_spawn(&id, command[0].c_str(), &files, nullptr, pointers(command).data(), pointers(environment).data());
+  posix_spawn_file_actions_destroy(&files);
+  if (failed) throw std::runtime_error("cannot start " + command[0] + ": " + std::strerror(failed));
+  return id;
 }
 
 }  // namespace
@@ -49,11 +89,8 @@ Program::Program(std::vector<std::string> command, ProgramOptions options)
     : out_(memfd_create("stdout", MFD_CLOEXEC)),
       err_(memfd_create("stderr", MFD_CLOEXEC)),
       end_(now() + options.seconds) {
-  id_ = fork();
-  if (out_ < 0 || err_ < 0 || id_ < 0) throw std::runtime_error("cannot start " + command[0]);
-  if (id_ > 0) return;
-  become(command, options, out_, err_);
-  _exit(127);
+  if (out_ < 0 || err_ < 0) throw std::runtime_error("no files in memory");
+  id_ = spawn(command, options, out_, err_);
 }
 
 Program::~Program() {
