@@ -18,7 +18,7 @@ TEST_F(Usage, HelpHasExamplesAndTheExitCodes) {
 }
 
 TEST_F(Usage, EachSubcommandHasHelpWithAnExample) {
-  for (const char* name : {"run", "check", "plan", "nodes", "graph"}) {
+  for (const char* name : {"run", "check", "plan", "nodes", "graph", "bench"}) {
     const auto help = quell({name, "--help"});
     EXPECT_EQ(help.exit, 0) << name;
     EXPECT_EQ(help.err, "") << name;
@@ -139,6 +139,8 @@ std::vector<Mistake> mistakes() {
        room({"--tap", "blend.image", "--preview", "-o", "c.####.exr", "-o", "blend.image=c.####.png"}),
        2,
        {"output 'blend.image' and the preview of 'color' would both be c.####.png"}},
+      {"UnknownDrawing", {"graph", "svgf", "--format", "sgv"}, 2, {"--format: 'sgv'", "Did you mean 'svg'?"}},
+      {"UnknownNode", {"nodes", "atruos"}, 2, {"there is no node type 'atruos'", "Did you mean 'atrous'?"}},
       {"SizeIsNoSize", {"plan", "svgf", "--size", "big"}, 2, {"--size big: expected WIDTHxHEIGHT", "1920x1080"}},
       {"SizeIsZero", {"plan", "svgf", "--size", "0x5"}, 2, {"--size 0x5"}},
       {"SizeIsHuge", {"plan", "svgf", "--size", "99999999999x5"}, 2, {"--size 99999999999x5"}},

@@ -1,0 +1,182 @@
+// What a run writes: images, previews, progress and reports.
+#include "core/report/error.h"
+#include "tests/support/quell_command.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace quell::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class Outputs : public QuellCommand {
+ protected:
+  void SetUp() override {
+    for (int f = 1; f <= 3; ++f) write_color(fmt::format("c.{:04}.exr", f), 40, 20, 0.3f * float(f));
+    write("shot.json", R"({"quell_sequence": 1, "frames": "1-3", "inputs": {"color": {"file": "c.####.exr"}}})");
+    write("pass.json", R"({"quell": 1, "inputs": {"color": "radiance"},
+      "nodes": {"clamp": {"type": "outlier_clamp", "in": {"image": "color"}}}, "outputs": {"color": "clamp"}})");
+  }
+  ProgramResult run(std::vector<std::string> args, ProgramOptions options = {}) {
+    return quell(std::vector<std::string>{"run", "pass.json", "shot.json"} + args, std::move(options));
+  }
+};
+
+TEST_F(Outputs, GoToTheFolderOutWhenNothingIsSaid) {
+  const auto r = run({});
+  EXPECT_EQ(r.exit, 0) << r.err;
+  EXPECT_EQ(r.out, "");
+  EXPECT_EQ(r.err.find("3 frames in "), 0u) << r.err;
+  EXPECT_NE(r.err.find("\ncolor: out/color.####.exr\n"), std::string::npos) << r.err;
+  EXPECT_EQ(files("out"), (std::vector<std::string>{"color.0001.exr", "color.0002.exr", "color.0003.exr"}));
+  EXPECT_TRUE(pixels("out/color.0001.exr").half);
+  EXPECT_EQ(pixels("out/color.0002.exr").width, 40);
+}
+
+TEST_F(Outputs, OneFrameNeedsNoNumber) {
+  EXPECT_EQ(run({"--frames", "2", "-o", "a=b.exr"}).exit, 2) << "NAME=PATTERN";
+  EXPECT_EQ(run({"--frames", "2", "-o", "./a=b.exr", "--quiet"}).exit, 0);
+  EXPECT_EQ(pixels("a=b.exr").height, 20);
+}
+
+TEST_F(Outputs, QuietPrintsNothing) {
+  const auto r = run({"--quiet"});
+  EXPECT_EQ(r.exit, 0);
+  EXPECT_EQ(r.err + r.out, "");
+}
+
+TEST_F(Outputs, FloatsAreFloats) {
+  EXPECT_EQ(run({"--float", "--quiet"}).exit, 0);
+  const auto p = pixels("out/color.0001.exr");
+  EXPECT_FALSE(p.half);
+  EXPECT_EQ(p.channels.at("R")[0], pixels("c.0001.exr").channels.at("R")[0]);
+}
+
+TEST_F(Outputs, PreviewsAreEncoded) {
+  EXPECT_EQ(run({"--preview", "--quiet", "-o", "p/x.####.exr"}).exit, 0);
+  EXPECT_EQ(files("p").size(), 6u);
+  const auto p = pixels("p/x.0001.png");
+  EXPECT_EQ(p.width, 40);
+  const double linear = double(pixels("p/x.0001.exr").channels.at("G")[0]);
+  EXPECT_NEAR(p.channels.at("G")[0], 1.055 * std::pow(linear, 1 / 2.4) - 0.055, 0.51 / 255);
+}
+
+TEST_F(Outputs, EachCompressionWorks) {
+  EXPECT_EQ(run({"--quiet", "--compression", "none", "-o", "none.####.exr"}).exit, 0);
+  const auto reference = pixels("none.0002.exr");
+  for (const std::string compression : {"zips", "zip", "piz", "rle"}) {
+    EXPECT_EQ(run({"--quiet", "--compression", compression, "-o", compression + ".####.exr"}).exit, 0) << compression;
+    EXPECT_EQ(pixels(compression + ".0002.exr"), reference) << compression;
+    EXPECT_NE(read(compression + ".0002.exr"), read("none.0002.exr")) << compression;
+  }
+  for (const std::string compression : {"dwaa", "pxr24"}) {
+    EXPECT_EQ(run({"--quiet", "--compression", compression, "-o", compression + ".####.exr"}).exit, 0) << compression;
+    EXPECT_NEAR(pixels(compression + ".0002.exr").channels.at("B")[7], reference.channels.at("B")[7], 1e-2)
+        << compression;
+  }
+}
+
+TEST_F(Outputs, NeverReplaceWhatIsRead) {
+  const auto before = read("c.0002.exr");
+  for (const char* pattern : {"c.####.exr", "./c.%04d.exr", "x/../c.@@@@.exr"}) {
+    const auto r = run({"-o", pattern});
+    EXPECT_EQ(r.exit, 2) << pattern;
+    EXPECT_NE(r.err.find("the sequence's 'color' and output 'color' would both be "), std::string::npos) << r.err;
+  }
+  EXPECT_EQ(read("c.0002.exr"), before);
+}
+
+TEST_F(Outputs, AFolderThatCannotBeIsRefusedBeforeTheRun) {
+  const auto r = run({"-o", "pass.json/deep/c.####.exr"});
+  EXPECT_EQ(r.exit, 5);
+  EXPECT_EQ(r.err, "quell: error: cannot write 'pass.json/deep/c.0001.exr': 'pass.json' is no folder\n");
+  for (const std::string option : {"--save-state", "--report"}) {
+    const auto file = run({option, "pass.json/file"});
+    EXPECT_EQ(file.exit, 5) << option;
+    EXPECT_EQ(file.err, "quell: error: cannot write 'pass.json/file': 'pass.json' is no folder\n");
+    EXPECT_EQ(run({option, "/dev/null"}).err,
+              "quell: error: cannot write '/dev/null': it is a device or pipe, not a file\n");
+    EXPECT_EQ(run({option, "."}).err, "quell: error: cannot write '.': Is a directory\n");
+  }
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_FALSE(fs::exists(path("out"))) << "nothing has run";
+}
+
+TEST_F(Outputs, AFileThatGrowsTooLargeIsNotLeftHalf) {
+  const auto r = run({"--compression", "none"}, {.file_bytes = 1000});
+  EXPECT_EQ(r.exit, 5) << r.err;
+  EXPECT_EQ(r.signal, 0);
+  EXPECT_NE(r.err.find("cannot write 'out/color.0001.exr': File too large"), std::string::npos) << r.err;
+  EXPECT_TRUE(files("out").empty());
+}
+
+TEST_F(Outputs, LinksStayLinks) {
+  fs::create_directories(path("disk"));
+  fs::create_directories(path("out"));
+  fs::create_symlink("../disk/c1.exr", path("out/color.0001.exr"));
+  EXPECT_EQ(run({"--quiet"}).exit, 0);
+  EXPECT_TRUE(fs::is_symlink(path("out/color.0001.exr")));
+  EXPECT_EQ(pixels("disk/c1.exr").width, 40);
+}
+
+TEST_F(Outputs, ProgressIsJsonALine) {
+  const auto r = run({"--progress", "json"});
+  EXPECT_EQ(r.exit, 0);
+  std::istringstream lines(r.err);
+  int done = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const auto j = json::parse(line);
+    EXPECT_EQ(j["done"], ++done);
+    EXPECT_EQ(j["frame"], done);
+    EXPECT_EQ(j["total"], 3);
+    EXPECT_GT(j["frames_per_second"], 0);
+    EXPECT_GE(j["seconds_left"], 0);
+  }
+  EXPECT_EQ(done, 3);
+  EXPECT_EQ(run({"--progress", "json", "--quiet"}).err, "");
+}
+
+TEST_F(Outputs, TheReportHasItsKeys) {
+  EXPECT_EQ(run({"--quiet", "--report", "deep/report.json", "--threads", "2"}).exit, 0);
+  const auto j = json::parse(read("deep/report.json"));
+  EXPECT_EQ(j["quell_report"], 1);
+  EXPECT_EQ(j["frames"], 3);
+  EXPECT_EQ(j["threads"], 2);
+  EXPECT_EQ(j["resets"], 1);
+  EXPECT_EQ(j["fingerprint"].get<std::string>().size(), 16u);
+  EXPECT_GT(j["seconds"], 0);
+  EXPECT_GT(j["image_bytes"], 40 * 20 * 3 * 4);
+  EXPECT_GT(j["peak_bytes"], j["image_bytes"]);
+  for (const char* part : {"read", "filter", "write"}) {
+    EXPECT_GE(j[part]["ms_per_frame"], 0) << part;
+    EXPECT_TRUE(j[part].contains("cpu_ms_per_frame")) << part;
+  }
+  ASSERT_EQ(j["nodes"].size(), 1u);
+  EXPECT_EQ(j["nodes"][0]["name"], "clamp");
+  EXPECT_EQ(j["nodes"][0]["type"], "outlier_clamp");
+  EXPECT_TRUE(j["nodes"][0].contains("ms_per_frame"));
+  EXPECT_TRUE(j.contains("graph"));
+  EXPECT_TRUE(j.contains("simd"));
+
+  const auto out = run({"--quiet", "--report", "-"});
+  EXPECT_EQ(json::parse(out.out)["frames"], 3);
+  EXPECT_EQ(out.err, "");
+  EXPECT_EQ(run({"--quiet", "--report", "-"}, {.out = "/dev/full"}).exit, 5);
+}
+
+TEST_F(Outputs, TimesAreATable) {
+  const auto r = run({"--quiet", "--times"});
+  EXPECT_EQ(r.exit, 0);
+  EXPECT_EQ(r.err.find("node "), 0u) << r.err;
+  EXPECT_NE(r.err.find("outlier_clamp"), std::string::npos) << r.err;
+  EXPECT_EQ(r.out, "");
+}
+
+}  // namespace
+}  // namespace quell::test
