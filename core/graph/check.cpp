@@ -89,12 +89,13 @@ class Checker {
       const bool list = (port.flags & QUELL_LIST) != 0;
       for (std::size_t i = 0; i < n.in[p].links.size(); ++i) {
         const auto& l = n.in[p].links[i];
+        int alone = 0;
         const std::string path =
             list && n.in[p].links.size() > 1 ? fmt::format("{}[{}]", net_.path(n, p), i) : net_.path(n, p);
         if (port.type != QUELL_ANY)
           link(l, port.type, path, port.name);
         else
-          any(n, port.name, l, path, variable, by), told = true;
+          any(n, port.name, l, path, n.type->shares_type(port) ? variable : alone, by), told = true;
       }
       if (n.in[p].links.empty() && !(port.flags & (QUELL_OPTIONAL | QUELL_LIST))) missing(n, p), told = true;
     }

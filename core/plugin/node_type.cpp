@@ -25,6 +25,11 @@ int NodeType::find_input(std::string_view name) const { return find(inputs(), na
 int NodeType::find_output(std::string_view name) const { return find(outputs(), name); }
 int NodeType::find_param(std::string_view name) const { return find(params(), name); }
 
+bool NodeType::shares_type(const quell_port& input) const {
+  return !(input.flags & QUELL_LIST) ||
+         std::ranges::any_of(outputs(), [](const quell_port& o) { return o.type == QUELL_ANY; });
+}
+
 void Instance::Free::operator()(std::byte* p) const { std::free(p); }
 
 Instance::Instance(const NodeType& type) : type_(&type) {

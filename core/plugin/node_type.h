@@ -33,6 +33,9 @@ class NodeType {
   int find_input(std::string_view name) const;   // index or -1
   int find_output(std::string_view name) const;  // index or -1
   int find_param(std::string_view name) const;   // index or -1
+  // Whether all wires of this input of type any have the one type that the node's other such ports have: not those of a
+  // list where no output takes the type over.
+  bool shares_type(const quell_port& input) const;
 
  private:
   const quell_node* table_;

@@ -42,7 +42,7 @@ NodeSource::NodeSource(Instance node, std::vector<std::int64_t> frames, std::set
   }
   std::vector<quell_shape> in(type.inputs().size());
   std::vector<std::int32_t> counts(type.inputs().size());
-  const quell_spec spec{in.data(), counts.data()};
+  const quell_spec spec{in.data(), counts.data(), counts.data()};
   quell_error error{};
   if (table.shapes(node_.instance.data(), &spec, shapes_.data(), &error)) fail(error.text);
   void* resource = nullptr;

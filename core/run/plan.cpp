@@ -30,14 +30,14 @@ bool is_pixels(int type) {
 // That the images of a node go together: a kernel takes one size, one pitch and the channels of a type for granted.
 class Fit {
  public:
-  explicit Fit(const std::string& node) : node_(node) {}
+  explicit Fit(const GraphNode& node) : node_(node) {}
 
   void image(const quell_port& port, const quell_shape& s) {
     const auto* info = type_info(port.type);
     if (info && info->channels && s.channels != info->channels)
       fail("input '{}' is {} of {} channels, but what it reads has {}", port.name, info->name, info->channels,
            s.channels);
-    if (port.type == QUELL_ANY) {
+    if (port.type == QUELL_ANY && node_.type().shares_type(port)) {
       if (any_.empty()) any_ = port.name, channels_ = s.channels;
       if (s.channels != channels_)
         fail("input '{}' has {} channels, but '{}' has {}", port.name, s.channels, any_, channels_);
@@ -67,15 +67,15 @@ class Fit {
  private:
   template <class... A>
   [[noreturn]] void fail(fmt::format_string<A...> format, A&&... args) const {
-    throw Error(Exit::usage, node_ + ": " + fmt::format(format, std::forward<A>(args)...));
+    throw Error(Exit::usage, node_.name + ": " + fmt::format(format, std::forward<A>(args)...));
   }
-  const std::string& node_;
+  const GraphNode& node_;
   std::string first_, any_;
   quell_shape size_{};
   int channels_ = 0;
 };
 
-quell_spec spec_of(const PlannedNode& n) { return {n.in.data(), n.in_count.data()}; }
+quell_spec spec_of(const PlannedNode& n) { return {n.in.data(), n.in_count.data(), n.in_channels.data()}; }
 
 }  // namespace
 
@@ -129,9 +129,10 @@ bool Plan::shapes(bool settled) {
     auto& planned = nodes_[n];
     planned.in.resize(ports.size());
     planned.in_count.resize(ports.size());
+    planned.in_channels.resize(ports.size());
     planned.reach = node.instance.reach();
     quell_shape first{};
-    Fit fit(node.name);
+    Fit fit(node);
     bool images = false;
     int any_channels = 0, feature_channels = 0;
     for (const bool delayed : {false, true})
@@ -152,6 +153,11 @@ bool Plan::shapes(bool settled) {
           if (const auto* info = type_info(value.type); info && info->channels && s.channels == 0)
             s.channels = info->channels;
           if (planned.in_count[p]++ == 0) planned.in[p] = s;
+          constexpr int kMostChannels = 1 << 16;
+          if (s.channels > kMostChannels - planned.in_channels[p])
+            throw Error(Exit::usage, fmt::format("{}: input '{}' would have more than {} channels", node.name,
+                                                 ports[p].name, kMostChannels));
+          planned.in_channels[p] += s.channels;
           if (!is_pixels(value.type)) continue;
           images = true;
           if (s.width == 0) continue;  // not known yet

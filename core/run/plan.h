@@ -29,6 +29,7 @@ struct PlannedValue {
 struct PlannedNode {
   std::vector<quell_shape> in;  // first image of each input port
   std::vector<int> in_count;
+  std::vector<int> in_channels;  // of all images of each input port together
   std::vector<quell_reach> reach;
   int step = 1;           // rows apart that are read together
   int tiled = 0;          // output whose rectangle is cut into bands

@@ -75,10 +75,12 @@ Bound::Bound(const Use& use) : use_(use) {
         {count && !weight ? views_[i].data() : nullptr, count && weight ? bound_weights_[i].data() : nullptr, count});
     in_shapes_.push_back(port.images.empty() ? quell_shape{} : port.images[0].shape());
     counts_.push_back(count);
+    in_channels_.push_back(0);
+    for (const auto& image : port.images) in_channels_.back() += image.channels();
   }
   find_shapes();
   const auto& table = use_.type->table();
-  const quell_spec spec{in_shapes_.data(), counts_.data()};
+  const quell_spec spec{in_shapes_.data(), counts_.data(), in_channels_.data()};
   quell_error error{};
   if (table.prepare && table.prepare(use_.instance.data(), &spec, &resource_, &error))
     throw std::runtime_error(error.text);
@@ -102,7 +104,7 @@ void Bound::find_shapes() {
     if (info && info->storage == Storage::value) s = {1, 1, 1};
     shapes_.push_back(s);
   }
-  const quell_spec spec{in_shapes_.data(), counts_.data()};
+  const quell_spec spec{in_shapes_.data(), counts_.data(), in_channels_.data()};
   quell_error error{};
   const auto& table = use_.type->table();
   if (table.shapes && table.shapes(use_.instance.data(), &spec, shapes_.data(), &error))

@@ -71,7 +71,7 @@ class Bound {
   std::vector<std::vector<quell_bound_weight>> bound_weights_;
   std::vector<quell_input> inputs_;
   std::vector<quell_shape> in_shapes_;
-  std::vector<std::int32_t> counts_;
+  std::vector<std::int32_t> counts_, in_channels_;
   std::vector<quell_shape> shapes_;
   void* resource_ = nullptr;
 };

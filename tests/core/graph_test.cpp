@@ -309,6 +309,20 @@ TEST(Graph, TypeVariablesAreBoundThroughLoops) {
   EXPECT_EQ(l.graph->outputs[0].type, QUELL_NORMAL);
 }
 
+// Where no output is of type any, nothing binds the images of a list to one type.
+TEST(Graph, ImagesOfAListMayEachHaveTheirType) {
+  const auto packed = load_text(nodes(R"("b": {"type": "pack", "in": {"images": ["color", "depth", "normal@-1"]}})"));
+  ASSERT_TRUE(packed.graph) << packed.messages;
+  EXPECT_EQ(packed.graph->outputs[0].type, QUELL_FEATURES);
+  const auto ids = load_text(nodes(R"("b": {"type": "pack", "in": {"images": ["color", "id"]}})"));
+  EXPECT_FALSE(ids.graph);
+  EXPECT_NE(ids.messages.find("b.in.images[1]: 'id' is id, but 'images' takes an image of numbers"), std::string::npos)
+      << ids.messages;
+  const auto mean = load_text(nodes(R"("b": {"type": "mean", "in": {"images": ["color", "depth"]}})"));
+  EXPECT_FALSE(mean.graph);
+  EXPECT_NE(mean.messages.find("both must have one type"), std::string::npos) << mean.messages;
+}
+
 class Files : public testing::Test {
  protected:
   std::string write(const std::string& name, const std::string& text) {

@@ -89,6 +89,18 @@ struct Filter {
   void run(const Tile&) const {}
 };
 
+struct Join {
+  InList<Any> images;
+  Out<Features> out;
+  void describe(Describe& d) {
+    d.summary("Joins.");
+    d.in(images, "images", "Images.");
+    d.out(out, "out", "All channels.");
+  }
+  void shapes(const quell_spec& spec, quell_shape* shape) const { shape[0].channels = spec.in_channels[0]; }
+  void run(const Tile&) const {}
+};
+
 // The sum of a corner, and what exists only with a second image.
 struct Measure {
   In<Scalar> a, b;
@@ -113,9 +125,10 @@ Registry& nodes() {
   static const NodeTable<Likeness> likeness("likeness");
   static const NodeTable<Filter> filter("filter");
   static const NodeTable<Measure> measure("measure");
-  static const quell_node* const list[] = {blend.node(),    tint.node(),   half.node(),   sorts.node(),
-                                           likeness.node(), filter.node(), measure.node()};
-  static const quell_plugin_table table{QUELL_MAGIC, QUELL_ABI_MAJOR, QUELL_ABI_MINOR, sizeof(quell_plugin_table), 7,
+  static const NodeTable<Join> join("join");
+  static const quell_node* const list[] = {blend.node(),    tint.node(),   half.node(),    sorts.node(),
+                                           likeness.node(), filter.node(), measure.node(), join.node()};
+  static const quell_plugin_table table{QUELL_MAGIC, QUELL_ABI_MAJOR, QUELL_ABI_MINOR, sizeof(quell_plugin_table), 8,
                                         list,        "1.0",           "test"};
   static const bool added = (registry.add_static(&table), true);
   EXPECT_TRUE(added && registry.problems().empty());
@@ -232,6 +245,25 @@ TEST(PlanShapes, ACastOfFeaturesNeedsTheChannels) {
   g.nodes.clear();
   g.outputs[0].wire.from = input();
   EXPECT_EQ(refusal(g, {{8, 8, 2}}), "output 'o' is radiance of 3 channels, but 'i' has 2");
+}
+
+// Images of a list whose type no output takes over have one size, but channels of their own.
+TEST(PlanShapes, AListOfUnlikeImages) {
+  Graph g;
+  g.inputs = {{"i", QUELL_FEATURES, false}, {"k", QUELL_SCALAR, false}};
+  g.nodes.push_back(make("join", "join", {{{input(), 0, {}}, {input(1), 0, {}}, {input(), 1, {}}}}));
+  g.outputs = {{"o", {{0, 0}, 0, {}}, QUELL_FEATURES, false}};
+  EXPECT_EQ(refusal(g, {{8, 4, 5}, {8, 4, 1}}), "");
+  const quell_shape shapes[] = {{8, 4, 5}, {8, 4, 1}};
+  EXPECT_EQ(Plan(g, shapes).values()[2].shape.channels, 11);
+  EXPECT_EQ(refusal(g, {{8, 4, 5}, {8, 5, 1}}),
+            "join: input 'images' is 8x5, but 'images' is 8x4: the images of a node have one size");
+  g.nodes[0].in[0] = {{input(), 0, {}}, {{0, 0}, 1, {}}};
+  EXPECT_EQ(refusal(g, {{8, 4, 5}, {8, 4, 1}}),
+            "join: output 'out' would grow from 8x4 with 320 channels to 8x4 with 325: a size cannot depend on its own "
+            "past");
+  g.nodes[0].in[0].push_back({{0, 0}, 1, {}});
+  EXPECT_EQ(refusal(g, {{8, 4, 5}, {8, 4, 1}}), "join: input 'images' would have more than 65536 channels");
 }
 
 TEST(PlanShapes, WeightsHaveTheSizeOfWhatTheyFilter) {

@@ -248,6 +248,15 @@ struct Mean : Idle {
     d.out(out, "image", "Their mean.");
   }
 };
+struct Pack : Idle {
+  InList<Any> images;
+  Out<Features> out;
+  void describe(Describe& d) {
+    d.summary("Joins images.");
+    d.in(images, "images", "Any number of images.");
+    d.out(out, "image", "All their channels.");
+  }
+};
 // Every kind of parameter.
 struct Grade : Idle {
   In<Radiance> image;
@@ -298,6 +307,7 @@ Registry& graph_registry() {
     add<Atrous>(registry, "atrous");
     add<OutlierClamp>(registry, "outlier_clamp");
     add<Mean>(registry, "mean");
+    add<Pack>(registry, "pack");
     add<Grade>(registry, "grade");
     return true;
   }();

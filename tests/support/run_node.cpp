@@ -119,10 +119,11 @@ Node& Node::tiles(int rows, int columns) {
 
 std::vector<quell_shape> Node::shapes() const {
   std::vector<quell_shape> in(images_.size());
-  std::vector<int32_t> counts(images_.size());
+  std::vector<int32_t> counts(images_.size()), channels(images_.size());
   quell_shape first{};
   for (std::size_t i = 0; i < images_.size(); ++i) {
     counts[i] = int(images_[i].size());
+    for (const auto& image : images_[i]) channels[i] += image.channels;
     if (images_[i].empty()) continue;
     in[i] = {images_[i][0].width, images_[i][0].height, images_[i][0].channels};
     const auto* info = type_info(type_->inputs()[i].type);
@@ -141,7 +142,7 @@ std::vector<quell_shape> Node::shapes() const {
     if (info && info->storage == Storage::value) s = {1, 1, 1};
     out.push_back(s);
   }
-  const quell_spec spec{in.data(), counts.data()};
+  const quell_spec spec{in.data(), counts.data(), channels.data()};
   quell_error error{};
   if (type_->table().shapes && type_->table().shapes(instance_.data(), &spec, out.data(), &error)) fail(error.text);
   return out;
@@ -160,7 +161,7 @@ std::vector<Image> Node::run() {
   std::vector<std::vector<quell_bound_weight>> bound(images_.size());
   std::vector<quell_input> inputs;
   std::vector<quell_shape> in_shapes;
-  std::vector<int32_t> counts;
+  std::vector<int32_t> counts, channels;
   for (std::size_t i = 0; i < images_.size(); ++i) {
     for (Node* w : weights_[i]) bound[i].push_back(w->bound());
     const bool weight = type_->inputs()[i].type == QUELL_WEIGHT;
@@ -170,6 +171,8 @@ std::vector<Image> Node::run() {
                             ? quell_shape{}
                             : quell_shape{images_[i][0].width, images_[i][0].height, images_[i][0].channels});
     counts.push_back(count);
+    channels.push_back(0);
+    for (const auto& image : images_[i]) channels.back() += image.channels;
   }
   const auto out_shapes = shapes();
   std::vector<Image> images;
@@ -183,7 +186,7 @@ std::vector<Image> Node::run() {
   }
   quell_error error{};
   void* resource = nullptr;
-  const quell_spec spec{in_shapes.data(), counts.data()};
+  const quell_spec spec{in_shapes.data(), counts.data(), channels.data()};
   if (table.prepare && table.prepare(instance_.data(), &spec, &resource, &error)) fail(error.text);
   const std::unique_ptr<void, void (*)(void*)> kept(
       resource, table.release ? table.release : [](void*) {});

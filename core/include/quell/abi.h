@@ -48,7 +48,8 @@ typedef enum quell_type {
   QUELL_CAMERA = 17,
   QUELL_TRANSFORMS = 18,
   QUELL_WEIGHT = 19, /* no image: the port takes or gives an edge-stopping function */
-  QUELL_ANY = 100    /* a type variable over float images: all `any` ports of one node have one type */
+  QUELL_ANY = 100    /* a type variable over float images: all `any` ports of one node have one type, but for a
+                      * list of a node without `any` outputs, whose images have a type each */
 } quell_type;
 
 typedef enum quell_kind {                   /* of a parameter, and how it lies in the instance */
@@ -176,6 +177,7 @@ typedef struct quell_bound_weight {
 typedef struct quell_spec { /* what is known when a graph has been planned */
   const quell_shape* in;    /* one an input port: shape of its first image; zero where not connected or a weight */
   const int32_t* in_count;
+  const int32_t* in_channels; /* one an input port: channels of all its images together */
 } quell_spec;
 
 typedef struct quell_node {
