@@ -2,6 +2,7 @@
 #include "apps/quell/bench_report.h"
 #include "apps/quell/command.h"
 #include "apps/quell/interrupt.h"
+#include "apps/quell/options.h"
 
 #include "core/bench/looped_source.h"
 #include "core/bench/synthetic_source.h"
@@ -23,6 +24,7 @@ struct BenchArguments {
   GraphOptions graph;
   SequenceOptions sequence;
   std::string size, json, baseline, trace;
+  SimdOption simd;
   std::optional<double> fail_slower;
   int frames = 10, warmup = 4, threads = 0, band_rows = 0;
 };
@@ -69,7 +71,10 @@ int bench(const BenchArguments& a) {
   check(a);
   const auto& cancel = watch_interrupts();
   const Size size = size_of(a.size);
+  a.simd.apply();
   // Before anything is measured in vain.
+  for (const auto& path : {a.json, a.trace})
+    if (!path.empty() && path != "-") check_writable(path);
   const auto baseline = a.baseline.empty() ? std::nullopt : std::optional(read_baseline(a.baseline));
   const bool synthetic = a.sequence.sequence.empty();
   Commander commander(a.plugins);
@@ -98,6 +103,7 @@ int bench(const BenchArguments& a) {
   if (!a.trace.empty()) options.trace = &trace;
   auto measured = measure(*graph, *source, options, a.warmup);
   measured.input = synthetic ? "synthetic" : a.sequence.sequence;
+  measured.simd = simd_in_use();
 
   std::FILE* const people = a.json == "-" ? stderr : stdout;
   fmt::print(people, "{}", timing_text(measured));
@@ -137,6 +143,7 @@ void add_bench(CLI::App& app, int& exit) {
   sub->add_option("--band-rows", a->band_rows, "Rows of a band; 0: chosen per node. Changes no result.")
       ->check(CLI::Range(0, 1 << 20))
       ->group("Tuning");
+  a->simd.add_to(*sub);
   sub->add_option("--json", a->json, "Writes the measurement as JSON; - is stdout, and the table goes to stderr.")
       ->type_name("FILE");
   sub->add_option("--baseline", a->baseline,

@@ -22,8 +22,8 @@ std::string change_line(const TimeChange& c) {
 std::string timing_text(const Timing& m) {
   double sum = 0;
   for (const auto& n : m.nodes) sum += n.ms.median;
-  std::string out = fmt::format("{}: {}x{}, {} input, {} frames after {} to warm up, {} threads\n", m.graph, m.width,
-                                m.height, m.input, m.frames, m.warmup, m.threads);
+  std::string out = fmt::format("{}: {}x{}, {} input, {} frames after {} to warm up, {} threads, {}\n", m.graph,
+                                m.width, m.height, m.input, m.frames, m.warmup, m.threads, m.simd);
   out += fmt::format("{:<28} {:<20} {:>9} {:>9} {:>7} {:>7} {:>8}\n", "node", "type", "ms/frame", "minimum", "share",
                      "GB/s", "Mpix/s");
   for (const auto& n : m.nodes)

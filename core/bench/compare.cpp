@@ -35,6 +35,7 @@ TimingComparison compare(const Timing& before, const Timing& now) {
                                   before.fingerprint, now.graph, now.fingerprint));
   if (before.threads != now.threads)
     c.notes.push_back(fmt::format("{} threads before, {} now", before.threads, now.threads));
+  if (before.simd != now.simd) c.notes.push_back(fmt::format("{} before, {} now", before.simd, now.simd));
   c.total = {"whole graph", before.ms, now.ms, pace(before.ms, now.ms)};
   const auto same_node = [](const NodeTiming& a) {
     return [&a](const NodeTiming& b) { return a.name == b.name && a.type == b.type; };

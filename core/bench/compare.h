@@ -21,7 +21,7 @@ struct TimingComparison {
   TimeChange total;
   std::vector<TimeChange> nodes;            // of one name and type in both, in the order of now
   std::vector<std::string> added, removed;  // nodes that only the one has
-  std::vector<std::string> notes;           // what else differs between the two: graph, threads
+  std::vector<std::string> notes;           // what else differs between the two: graph, threads, SIMD
 };
 
 // The medians differ when they lie farther apart than the quartiles of either, than 3 % of the former and than what a

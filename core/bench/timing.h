@@ -35,6 +35,7 @@ struct Timing {
   int width = 0, height = 0;
   int frames = 0, warmup = 0;  // measured; run before and forgotten
   int threads = 0;
+  std::string simd;                             // that kernels ran with; filled by the caller, as is `input`
   std::size_t resets = 0;                       // frames that began without history, of all
   Spread ms, cpu_ms;                            // filtering a frame: wall, and the process's CPU
   double read_ms = 0;                           // mean a frame; no part of `ms`

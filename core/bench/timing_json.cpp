@@ -34,6 +34,7 @@ std::string timing_json(const Timing& m) {
   j["frames"] = m.frames;
   j["warmup"] = m.warmup;
   j["threads"] = m.threads;
+  j["simd"] = m.simd;
   j["resets"] = m.resets;
   j["ms"] = json_of(m.ms);
   j["cpu_ms"] = json_of(m.cpu_ms);
@@ -62,6 +63,7 @@ Timing parse_timing(const std::string& path, const std::string& text) {
     m.input = j.at("input").get<std::string>();
     m.width = j.at("width").get<int>(), m.height = j.at("height").get<int>();
     m.frames = j.at("frames").get<int>(), m.warmup = j.at("warmup").get<int>();
+    m.simd = j.at("simd").get<std::string>();
     m.threads = j.at("threads").get<int>(), m.resets = j.at("resets").get<std::size_t>();
     m.ms = spread_from(j.at("ms")), m.cpu_ms = spread_from(j.at("cpu_ms"));
     m.read_ms = j.at("read_ms").get<double>();

@@ -115,7 +115,7 @@ TEST(Synthetic, MomentsCountsAndTapsAreWhatNodesGive) {
     ASSERT_GE(moments.at(1, x, y), moments.at(0, x, y) * moments.at(0, x, y));
     ASSERT_GE(count.at(0, x, y), 1);
     ASSERT_EQ(count.at(0, x, y), std::floor(count.at(0, x, y)));
-    for (int c = 0; c < 2; ++c) ASSERT_LT(std::abs(motion.at(c, x, y)), 3);
+    for (int c = 0; c < 2; ++c) ASSERT_LT(std::abs(motion.at(c, x, y)), 5);
     float sum = 0;
     for (int i = 0; i < 4; ++i) {
       ASSERT_GE(taps.at(i, x, y), 0);
@@ -129,7 +129,7 @@ TEST(Synthetic, MomentsCountsAndTapsAreWhatNodesGive) {
       ASSERT_EQ(mask & 0x1FFu, 0x1FFu);
     }
   });
-  EXPECT_GT(whole, kWidth * kHeight * 9 / 10);
+  EXPECT_GT(whole, kWidth * kHeight * 3 / 4);
 }
 
 TEST(Synthetic, CameraSeesPositionsWhereTheyAre) {

@@ -126,6 +126,7 @@ TEST(Timing, ComparesNodesByNameAndType) {
   before.width = now.width = 40, before.height = now.height = 90;
   before.ms = around(100, 1), now.ms = around(101, 1);
   before.threads = 1, now.threads = 2;
+  before.simd = "avx2", now.simd = "avx3";
   before.nodes = {{"a", "x", around(50, 1)}, {"b", "x", around(50, 1)}, {"gone", "x", around(1, 0)}};
   now.nodes = {{"a", "x", around(60, 1)}, {"b", "y", around(40, 1)}, {"new", "x", around(1, 0)}};
   const auto c = compare(before, now);
@@ -136,7 +137,7 @@ TEST(Timing, ComparesNodesByNameAndType) {
   EXPECT_NEAR(c.nodes[0].percent(), 20, 1e-9);
   EXPECT_EQ(c.added, (std::vector<std::string>{"b", "new"}));
   EXPECT_EQ(c.removed, (std::vector<std::string>{"b", "gone"}));
-  EXPECT_EQ(c.notes, (std::vector<std::string>{"1 threads before, 2 now"}));
+  EXPECT_EQ(c.notes, (std::vector<std::string>{"1 threads before, 2 now", "avx2 before, avx3 now"}));
   EXPECT_TRUE(slower_by(c, 15));
   EXPECT_FALSE(slower_by(c, 25));
 
@@ -157,7 +158,7 @@ TEST(Timing, JsonHasTheDocumentedKeysAndComesBack) {
   const auto text = timing_json(timing);
   const auto j = nlohmann::json::parse(text);
   for (const char* key : {"quell_bench", "graph", "fingerprint", "input", "width", "height", "frames", "warmup",
-                          "threads", "resets", "ms", "cpu_ms", "read_ms", "image_bytes", "peak_bytes", "nodes"})
+                          "threads", "simd", "resets", "ms", "cpu_ms", "read_ms", "image_bytes", "peak_bytes", "nodes"})
     EXPECT_TRUE(j.contains(key)) << key;
   for (const char* key : {"name", "type", "ms", "bytes", "pixels", "gigabytes_per_second", "megapixels_per_second"})
     EXPECT_TRUE(j["nodes"][0].contains(key)) << key;
