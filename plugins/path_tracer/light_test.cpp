@@ -1,5 +1,6 @@
 // The path tracer's light against what is known without tracing paths: furnaces, form factors and its own statistics.
 #include "plugins/path_tracer/test_scenes.h"
+#include "tests/support/paths.h"
 
 #include <cmath>
 

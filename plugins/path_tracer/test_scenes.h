@@ -1,6 +1,7 @@
 // What the tests of the path tracer share: scene files made of text, and numbers out of images.
 #pragma once
 
+#include "tests/support/paths.h"
 #include "tests/support/run_node.h"
 
 #include <gtest/gtest.h>

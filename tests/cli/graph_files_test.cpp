@@ -1,4 +1,5 @@
 // quell check and quell plan: graph files that are right, wrong, huge or no files at all.
+#include "tests/support/paths.h"
 #include "tests/support/quell_command.h"
 
 #include <fmt/format.h>

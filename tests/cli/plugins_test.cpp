@@ -1,4 +1,5 @@
 // Folders of plugins in which something is broken: the rest goes on.
+#include "tests/support/paths.h"
 #include "tests/support/quell_command.h"
 
 #include <filesystem>

@@ -1,4 +1,5 @@
 // Runs over files that are missing, change their size, end too early or lack a channel.
+#include "tests/support/paths.h"
 #include "tests/support/quell_command.h"
 
 #include <fmt/format.h>

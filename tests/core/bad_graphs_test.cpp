@@ -1,6 +1,7 @@
 // Every graph in tests/bad/graphs, with the exact messages that stand beside it. A graph may begin with comments that
 // say how it is loaded: "// --set node.parameter=3" and "// roles: color albedo".
 #include "tests/support/graph_nodes.h"
+#include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
 

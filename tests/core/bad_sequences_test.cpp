@@ -1,5 +1,6 @@
 // Every file in tests/bad/sequences, with exactly the messages of the text beside it.
 #include "core/sequence/sequence.h"
+#include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
 

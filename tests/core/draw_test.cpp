@@ -3,6 +3,7 @@
 
 #include "core/graph/drawing.h"
 #include "tests/support/graph_nodes.h"
+#include "tests/support/paths.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

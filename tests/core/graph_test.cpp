@@ -1,5 +1,6 @@
 // Whole graphs: what good ones come to be, stage by stage.
 #include "tests/support/graph_nodes.h"
+#include "tests/support/paths.h"
 #include "tests/support/scratch.h"
 
 #include <fmt/format.h>

@@ -3,6 +3,7 @@
 #include "core/image/image.h"
 #include "core/sequence/matrices.h"
 #include "core/sequence/sequence.h"
+#include "tests/support/paths.h"
 
 #include <quell/types.h>
 

@@ -3,6 +3,7 @@
 #include "core/graph/schema.h"
 
 #include "tests/support/graph_nodes.h"
+#include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
 

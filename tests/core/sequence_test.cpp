@@ -5,6 +5,7 @@
 #include "core/image/image.h"
 #include "core/report/error.h"
 #include "core/sequence/profile.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_node.h"
 #include "tests/support/scratch.h"
 

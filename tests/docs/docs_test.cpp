@@ -1,6 +1,7 @@
 // The documents speak of what is there: their graphs are good, and their links lead somewhere.
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include "tests/support/paths.h"
 
 #include <cstdlib>
 #include <filesystem>

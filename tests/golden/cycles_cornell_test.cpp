@@ -1,6 +1,7 @@
 // Picture quality of SVGF on a path-traced room with references, scored so that the references' own noise cancels:
 // PSNR* = -10 log10 mean((T(X) - T(A)) (T(X) - T(B))), T(x) = x / (1 + x), A and B independent references; flicker =
 // mean |T(X_t) - warp T(X_{t-1})| over pixels with four valid taps of the same object, times 1000.
+#include "tests/support/paths.h"
 #include "tests/support/run_sequence.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // Two signals packed into one image and filtered under one set of weights, in a graph, against each filtered alone.
+#include "core/graph/load.h"
 #include "core/run/executor.h"
 #include "tests/support/run_node.h"
 #include "tests/support/scratch.h"

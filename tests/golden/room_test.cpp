@@ -1,6 +1,7 @@
 // SVGF over the built-in room: how much it gains, that it leaves neither blotches nor ghosts, and that neither threads,
 // bands nor chunks change a bit.
 #include "core/run/node_source.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_node.h"
 #include "tests/support/run_sequence.h"
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "tests/support/paths.h"
 #include "tests/support/run_shipped.h"
 
 namespace quell::test {

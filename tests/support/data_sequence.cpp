@@ -1,5 +1,6 @@
 // Opens real sequences for tests.
 #include "tests/support/data_sequence.h"
+#include "tests/support/paths.h"
 
 #include <cstdlib>
 #include <filesystem>

@@ -1,5 +1,6 @@
 // The tables are built by the SDK from structs whose work is to do nothing.
 #include "tests/support/graph_nodes.h"
+#include "tests/support/paths.h"
 
 #include <quell/node.h>
 

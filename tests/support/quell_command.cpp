@@ -1,5 +1,6 @@
 // The quell command in a folder of its own.
 #include "tests/support/quell_command.h"
+#include "tests/support/paths.h"
 
 #include "core/image/image.h"
 #include "core/sequence/image_file.h"

@@ -1,5 +1,6 @@
 // Runs one node of a plugin on images.
 #include "tests/support/run_node.h"
+#include "tests/support/paths.h"
 
 #include <quell/types.h>
 

@@ -4,6 +4,7 @@
 #include "core/run/node_source.h"
 #include "core/sequence/file_sequence.h"
 #include "core/sequence/sequence.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_node.h"
 
 #include <OpenImageIO/imageio.h>

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/run/executor.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_node.h"
 
 namespace quell::test {
