@@ -71,7 +71,7 @@ std::vector<Mistake> mistakes() {
       {"UnknownGraph",
        {"run", "svgff", "room"},
        2,
-       {"there is no graph 'svgff'", "installed are: games202, svgf", "Did you mean 'svgf'?"}},
+       {"there is no graph 'svgff'", "installed are: ", "games202", "Did you mean 'svgf'?"}},
       {"UnknownSequence",
        {"run", "svgf", "rom"},
        2,

@@ -28,12 +28,13 @@ constexpr char kGraph[] = R"({
     "alone_depth":    { "type": "atrous", "in": { "image": "depth", "weights": ["by_normal", "by_depth"] } },
     "pack":           { "type": "pack", "in": { "images": ["diffuse", "specular", "depth"] } },
     "filter":         { "type": "atrous", "in": { "image": "pack", "weights": ["by_normal", "by_depth"] } },
-    "out_diffuse":    { "type": "unpack", "in": { "image": "filter", "like": "diffuse" } },
-    "out_specular":   { "type": "unpack", "in": { "image": "filter", "like": "specular" }, "set": { "first": 3 } },
-    "out_depth":      { "type": "unpack", "in": { "image": "filter", "like": "depth" }, "set": { "first": 6 } }
+    "out_diffuse":    { "type": "unpack", "in": { "image": "filter.image", "like": "diffuse" } },
+    "out_specular":   { "type": "unpack", "in": { "image": "filter.image", "like": "specular" }, "set": { "first": 3 } },
+    "out_depth":      { "type": "unpack", "in": { "image": "filter.image", "like": "depth" }, "set": { "first": 6 } }
   },
   "outputs": {
-    "alone_diffuse": "alone_diffuse", "alone_specular": "alone_specular", "alone_depth": "alone_depth",
+    "alone_diffuse": "alone_diffuse.image", "alone_specular": "alone_specular.image",
+    "alone_depth": "alone_depth.image",
     "diffuse": "out_diffuse", "specular": "out_specular", "depth": "out_depth"
   }
 })";
