@@ -23,10 +23,12 @@ float random(int x, int y, int channel, int take) {
   return float((h ^ h >> 15) >> 8) * 0x1p-24f;
 }
 
-// What a pixel shows: a patch is an object, a plane of its own slope and shade with a gentle bump; two are sky.
+// What a pixel shows: a patch is an object, a plane of its own slope and shade with a gentle bump; two are sky and one
+// is a lamp.
 struct Surface {
   int object;
   bool sky;
+  float emitted;        // radiance
   float u, v;           // position in the image, 0 to 1
   float depth, dx, dy;  // depth and its slope per pixel
   std::array<float, 3> normal, albedo;
@@ -38,6 +40,7 @@ Surface surface(int x, int y, int width, int height) {
   const int column = std::min(kColumns - 1, int(s.u * kColumns)), row = std::min(kRows - 1, int(s.v * kRows));
   s.object = row * kColumns + column;
   s.sky = s.object == 3 || s.object == 20;
+  s.emitted = s.object == 29 ? 4.0f : 0.0f;
   s.dx = 0.4f * std::sin(1.7f * float(column)) / float(width),
   s.dy = 0.4f * std::cos(2.3f * float(row)) / float(height);
   s.depth = 5 + 0.25f * float(s.object % 7) + s.dx * float(x) + s.dy * float(y);
@@ -91,7 +94,7 @@ void fill(Image& image, int type, int take, int x, int y) {
   switch (type) {
     case QUELL_RADIANCE: {
       const float sample = s.sky ? 1 : one_sample(light, x, y, take);
-      for (int c = 0; c < 3; ++c) set(c, sample * (s.sky ? 0.8f : s.albedo[std::size_t(c)]));
+      for (int c = 0; c < 3; ++c) set(c, s.emitted + sample * (s.sky ? 0.8f : s.albedo[std::size_t(c)]));
       break;
     }
     case QUELL_ALBEDO:
@@ -183,13 +186,24 @@ Image synthetic_image(int type, int width, int height, int take) {
   return image;
 }
 
+Image synthetic_emission(int width, int height) {
+  Image image(width, height, 3);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c) image.at(c, x, y) = surface(x, y, width, height).emitted;
+  return image;
+}
+
 SyntheticSource::SyntheticSource(const Graph& graph, int width, int height, int frames) {
   for (int f = 0; f < frames; ++f) frames_.push_back(f);
   for (const auto& input : graph.inputs) {
     roles_[input.name] = input.type;
     auto& takes = takes_[input.name];
-    for (int take = 0; take < (differs_by_take(input.type) ? 2 : 1); ++take)
-      takes.push_back(synthetic_image(input.type, width, height, take));
+    if (input.name == "emission" && input.type == QUELL_RADIANCE)
+      takes.push_back(synthetic_emission(width, height));
+    else
+      for (int take = 0; take < (differs_by_take(input.type) ? 2 : 1); ++take)
+        takes.push_back(synthetic_image(input.type, width, height, take));
   }
 }
 

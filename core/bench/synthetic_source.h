@@ -17,8 +17,11 @@ namespace quell {
 // nothing of the surfaces, which all images of one size show alike. What a type without fixed channels gets is 8.
 Image synthetic_image(int type, int width, int height, int take);
 
-// Gives a graph all of its inputs, the optional ones too. Two takes alternate, so that history meets new noise;
-// reading a frame copies it.
+// What surfaces emit: nothing, but for a lamp. All radiance holds it.
+Image synthetic_emission(int width, int height);
+
+// Gives a graph all of its inputs, the optional ones too; an input called emission gets that. Two takes alternate, so
+// that history meets new noise; reading a frame copies it.
 class SyntheticSource : public FrameSource {
  public:
   SyntheticSource(const Graph&, int width, int height, int frames);

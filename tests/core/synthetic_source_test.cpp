@@ -105,6 +105,23 @@ TEST(Synthetic, RadianceIsNoisyAndItsMeanIsNot) {
   EXPECT_LT(black, 640 * 360 / 2);
 }
 
+// An input of this name tells emitters from surfaces: noise in it would set most of the picture aside.
+TEST(Synthetic, EmissionIsALampThatRadianceHolds) {
+  Graph graph;
+  graph.inputs = {{"color", QUELL_RADIANCE, false}, {"emission", QUELL_RADIANCE, true}};
+  SyntheticSource source(graph, kWidth, kHeight, 1);
+  const std::vector<std::string> roles{"color", "emission"};
+  const Image color(kWidth, kHeight, 3), emission(kWidth, kHeight, 3);
+  source.read(0, roles, std::vector{color.view(), emission.view()});
+  int lit = 0;
+  each(emission, [&](int x, int y) {
+    lit += emission.at(1, x, y) > 0;
+    for (int c = 0; c < 3; ++c) ASSERT_LE(emission.at(c, x, y), color.at(c, x, y));
+  });
+  EXPECT_GT(lit, 0);
+  EXPECT_LT(lit, kWidth * kHeight / 20);
+}
+
 TEST(Synthetic, MomentsCountsAndTapsAreWhatNodesGive) {
   const auto moments = synthetic_image(QUELL_MOMENTS, kWidth, kHeight, 1);
   const auto count = synthetic_image(QUELL_COUNT, kWidth, kHeight, 1);
