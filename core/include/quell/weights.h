@@ -63,7 +63,7 @@ HWY_FLATTEN void each_mirrored(const quell_run& run, float* exponent, Weight wei
     const auto a = weight(Pixels{at}), b = weight(Pixels{at + kLanes});
     float* to = exponent + i;
     for (const quell_tap *t = run.tap, *end = t + run.taps; t < end; t += together) {
-      const Offset o{all(float(t->dx)), all(float(t->dy))};
+      const Offset o{hn::ConvertTo(d, hn::Set(di, t->dx)), hn::ConvertTo(d, hn::Set(di, t->dy))};
       const auto a_pair = a(o), b_pair = b(o);
       for (int k = 0; k < together; ++k, to += run.row) {
         put<kStore>(a_pair(Pixels{at + t[k].offset}), to);
