@@ -1,35 +1,29 @@
 // What weights as nodes cost: an à-trous level of SVGF as four plugins against the same level fused by hand.
 //
-// Both filter 1080p on one thread with denormals flushed, interleaved band by band in one process; the minimum of each
-// band over the rounds counts, in thread CPU time, so that other work on the machine disturbs little. The opponent is
-// written for AVX-512, has no border code (its planes have a border of zero normals), takes the cosine's power by
-// squaring and knows its inputs when it is compiled.
-#include "tests/support/run_node.h"
+// Both filter 1080p, in turn: first plugin and opponent band by band on one thread, where the minimum of each band over
+// the rounds counts, in thread CPU time, so that other work on the machine disturbs least; then whole frames, the graph
+// on the host's executor, on one thread and on two. "With borders" is the opponent that drops taps outside of the image
+// as the graph does; "padded" takes them from a border of zero normals and checks nothing. The largest difference shows
+// that both computed the same (but for misses, between which the opponent knows no weight).
+#include "tests/bench/fused_level.h"
+#include "tests/bench/host_graph.h"
+#include "tests/bench/turns.h"
 
-#include <immintrin.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
-#include <vector>
 
 #ifdef __AVX512F__
 namespace {
 
+using namespace quell::bench;
 using quell::Image;
 using quell::test::Node;
 
 constexpr int kWidth = 1920, kHeight = 1080, kBand = 270;
-constexpr float kLog2E = 1.44269504f, kSigmaLuminance = 4, kSigmaDepth = 1, kEpsilon = 1e-4f;
+constexpr int kSteps[] = {1, 2, 4, 8, 16};
+constexpr LevelRule kRule{4, 1, 1e-4f, 128, false};
 
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
-
+// A quiet picture: a weight that is rarely exactly 0 or 1.
 struct Scene {
   Image color{kWidth, kHeight, 3}, variance{kWidth, kHeight, 1}, normal{kWidth, kHeight, 3}, depth{kWidth, kHeight, 1},
       slope{kWidth, kHeight, 2};
@@ -50,103 +44,21 @@ struct Scene {
   }
 };
 
-// Planes with a border that a tap may fall into, for the fused level.
-class Padded {
- public:
-  static constexpr int kBorder = 64, kPitch = kWidth + 2 * kBorder + 16;  // rows no multiple of 4096 bytes apart
-  void add(const Image& image) {
-    for (int c = 0; c < image.channels(); ++c) {
-      planes_.emplace_back(std::size_t(kPitch) * (kHeight + 2 * kBorder) + 64, 0.0f);
-      for (int y = 0; y < kHeight; ++y) std::copy_n(image.row(c, y), kWidth, planes_.back().data() + at(0, y));
-    }
-  }
-  static std::size_t at(int x, int y) { return std::size_t(y + kBorder) * kPitch + std::size_t(x + kBorder); }
-  float* plane(int i) { return planes_[std::size_t(i)].data(); }
-  const float* plane(int i) const { return planes_[std::size_t(i)].data(); }
-
- private:
-  std::vector<std::vector<float>> planes_;
-};
-
-__m512 all(float f) { return _mm512_set1_ps(f); }
-__m512 load(const float* p) { return _mm512_loadu_ps(p); }
-__m512 fma(__m512 a, __m512 b, __m512 c) { return _mm512_fmadd_ps(a, b, c); }
-__m512 luminance(__m512 r, __m512 g, __m512 b) {
-  return fma(r, all(.2126f), fma(g, all(.7152f), _mm512_mul_ps(b, all(.0722f))));
-}
-__m512 exp2(__m512 x) {
-  const __m512 n = _mm512_roundscale_ps(x, 0), f = _mm512_sub_ps(x, n);
-  __m512 p = fma(f, all(0.0096181f), all(0.0555041f));
-  p = fma(p, f, all(0.2402265f));
-  p = fma(p, f, all(0.6931472f));
-  return _mm512_scalef_ps(fma(p, f, all(1)), n);
-}
-
 class Fused {
  public:
   explicit Fused(const Scene& s) {
-    for (const Image* image : {&s.color, &s.variance, &s.normal, &s.depth, &s.slope}) in_.add(*image);
-    for (const Image* image : {&s.color, &s.variance}) out_.add(*image);
+    in_.take(0, s.color.view()), in_.take(3, s.variance.view());
+    guides_.take(0, s.normal.view()), guides_.take(3, s.depth.view()), guides_.take(4, s.slope.view());
   }
+  template <bool kBorders>
   void band(int step, int y0, int y1) {
-    constexpr float kernel[] = {6 / 16.f, 4 / 16.f, 1 / 16.f};
-    std::vector<Tap> taps;
-    for (int dy = 0; dy <= 2; ++dy)
-      for (int dx = dy ? -2 : 1; dx <= 2; ++dx)
-        taps.push_back({(dy * Padded::kPitch + dx) * step, float(dx * step), float(dy * step),
-                        std::log2(kernel[std::abs(dx)] * kernel[dy])});
-    for (int residue = 0; residue < step; ++residue)
-      for (int y = y0 + residue; y < y1; y += step) row(taps, y);
+    level_.band<kBorders>(in_, guides_, out_, step, y0, y1);
   }
-  float at(int channel, int x, int y) const { return out_.plane(channel)[Padded::at(x, y)]; }
+  float at(int channel, int x, int y) const { return out_.row(channel, y)[x]; }
 
  private:
-  struct Tap {
-    std::ptrdiff_t offset;
-    float dx, dy, log2_kernel;
-  };
-  enum { kR, kG, kB, kVariance, kNx, kNy, kNz, kDepth, kSlopeX, kSlopeY };
-
-  void row(const std::vector<Tap>& taps, int y) {
-    const float* p[10];
-    for (int i = 0; i < 10; ++i) p[i] = in_.plane(i) + Padded::at(0, y);
-    for (int x = 0; x < kWidth; x += 16) {
-      const __m512 r = load(p[kR] + x), g = load(p[kG] + x), b = load(p[kB] + x), v = load(p[kVariance] + x);
-      const __m512 nx = load(p[kNx] + x), ny = load(p[kNy] + x), nz = load(p[kNz] + x), z = load(p[kDepth] + x);
-      const __m512 sx = load(p[kSlopeX] + x), sy = load(p[kSlopeY] + x), l = luminance(r, g, b);
-      const __m512 by_luminance = _mm512_div_ps(
-          all(kLog2E), fma(all(kSigmaLuminance), _mm512_sqrt_ps(_mm512_max_ps(v, all(0))), all(kEpsilon)));
-      constexpr float centre = 36 / 256.f;
-      __m512 sr = _mm512_mul_ps(r, all(centre)), sg = _mm512_mul_ps(g, all(centre)), sb = _mm512_mul_ps(b, all(centre));
-      __m512 sv = _mm512_mul_ps(v, all(centre * centre)), sw = all(centre);
-      for (const Tap& t : taps) {
-        const __m512 change = _mm512_abs_ps(fma(sx, all(t.dx), _mm512_mul_ps(sy, all(t.dy))));
-        const __m512 by_depth =
-            _mm512_mul_ps(all(kLog2E), _mm512_rcp14_ps(fma(all(kSigmaDepth), change, all(kEpsilon))));
-        for (const std::ptrdiff_t o : {t.offset + x, -t.offset + x}) {
-          const __m512 qr = load(p[kR] + o), qg = load(p[kG] + o), qb = load(p[kB] + o);
-          __m512 d = _mm512_max_ps(
-              all(0), fma(load(p[kNx] + o), nx, fma(load(p[kNy] + o), ny, _mm512_mul_ps(load(p[kNz] + o), nz))));
-          for (int i = 0; i < 7; ++i) d = _mm512_mul_ps(d, d);  // power 128
-          const __m512 dl = _mm512_abs_ps(_mm512_sub_ps(luminance(qr, qg, qb), l));
-          const __m512 dz = _mm512_abs_ps(_mm512_sub_ps(load(p[kDepth] + o), z));
-          const __m512 w = _mm512_mul_ps(
-              d, exp2(_mm512_fnmadd_ps(dl, by_luminance, _mm512_fnmadd_ps(dz, by_depth, all(t.log2_kernel)))));
-          sr = fma(w, qr, sr), sg = fma(w, qg, sg), sb = fma(w, qb, sb);
-          sv = fma(_mm512_mul_ps(w, w), load(p[kVariance] + o), sv);
-          sw = _mm512_add_ps(sw, w);
-        }
-      }
-      const __m512 inverse = _mm512_div_ps(all(1), sw);
-      float* const out = out_.plane(0) + Padded::at(x, y);
-      _mm512_storeu_ps(out, _mm512_mul_ps(sr, inverse));
-      _mm512_storeu_ps(out_.plane(1) + Padded::at(x, y), _mm512_mul_ps(sg, inverse));
-      _mm512_storeu_ps(out_.plane(2) + Padded::at(x, y), _mm512_mul_ps(sb, inverse));
-      _mm512_storeu_ps(out_.plane(3) + Padded::at(x, y), _mm512_mul_ps(sv, _mm512_mul_ps(inverse, inverse)));
-    }
-  }
-
-  Padded in_, out_;
+  FusedLevel level_{kWidth, kHeight, kRule};
+  Padded in_{kWidth, kHeight, 4}, guides_{kWidth, kHeight, 6}, out_{kWidth, kHeight, 4};
 };
 
 // The same level as a graph would run it: atrous with three weight nodes, each from its own library.
@@ -157,9 +69,10 @@ class Plugins {
         variance_(s.variance.view()),
         color_out_(kWidth, kHeight, 3),
         variance_out_(kWidth, kHeight, 1) {
-    normal_.set("power", 128.0f).in("normal", s.normal);
-    depth_.set("sigma", kSigmaDepth).set("epsilon", kEpsilon).in("depth", s.depth).in("slope", s.slope);
-    luminance_.set("sigma", kSigmaLuminance).set("epsilon", kEpsilon).in("image", s.color).in("variance", s.variance);
+    normal_.set("power", kRule.power).in("normal", s.normal);
+    depth_.set("sigma", kRule.sigma_depth).set("epsilon", kRule.epsilon).in("depth", s.depth).in("slope", s.slope);
+    luminance_.set("sigma", kRule.sigma_luminance).set("epsilon", kRule.epsilon);
+    luminance_.in("image", s.color).in("variance", s.variance);
     for (Node* node : {&normal_, &depth_, &luminance_}) weights_.push_back(node->bound());
     out_[0] = color_out_.view(), out_[1] = variance_out_.view();
     inputs_[0] = {&image_, nullptr, 1}, inputs_[1] = {&variance_, nullptr, 1};
@@ -185,40 +98,93 @@ class Plugins {
   Image color_out_, variance_out_;
 };
 
-}  // namespace
+double difference(const Fused& a, const Plugins& b) {
+  double most = 0;
+  for (int c = 0; c < 4; ++c)
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) most = std::max(most, double(std::abs(a.at(c, x, y) - b.at(c, x, y))));
+  return most;
+}
 
-int main(int argc, char** argv) {
-  if (!__builtin_cpu_supports("avx512f")) return std::puts("needs a machine with AVX-512"), 1;
-  const int rounds = argc > 1 ? std::atoi(argv[1]) : 7;
-  _mm_setcsr(_mm_getcsr() | 0x8040);  // flush to zero, denormals are zero, as on the host's threads
+void band_by_band(int rounds) {
   static const Scene scene;
   static Fused fused(scene);
   static Plugins plugins(scene);
-  double sum_fused = 0, sum_plugins = 0;
-  for (const int step : {1, 2, 4, 8, 16}) {
-    double by_fused = 0, by_plugins = 0;
+  std::puts("one thread, band by band, CPU time");
+  double sums[3] = {};
+  for (const int step : kSteps) {
+    double spent[3] = {};  // padded, with borders, plugins
     for (int y = 0; y < kHeight; y += kBand) {
-      double best_fused = 1e9, best_plugins = 1e9;
+      double least[3] = {1e9, 1e9, 1e9};
       for (int i = 0; i < rounds; ++i) {
-        const double a = cpu_seconds();
-        fused.band(step, y, y + kBand);
-        const double b = cpu_seconds();
+        const double a = seconds(CLOCK_THREAD_CPUTIME_ID);
+        fused.band<false>(step, y, y + kBand);
+        const double b = seconds(CLOCK_THREAD_CPUTIME_ID);
+        fused.band<true>(step, y, y + kBand);
+        const double c = seconds(CLOCK_THREAD_CPUTIME_ID);
         plugins.band(step, y, y + kBand);
-        best_fused = std::min(best_fused, b - a), best_plugins = std::min(best_plugins, cpu_seconds() - b);
+        const double took[] = {b - a, c - b, seconds(CLOCK_THREAD_CPUTIME_ID) - c};
+        for (int k = 0; k < 3; ++k) least[k] = std::min(least[k], took[k]);
       }
-      by_fused += best_fused, by_plugins += best_plugins;
+      for (int k = 0; k < 3; ++k) spent[k] += least[k];
     }
-    double difference = 0;
-    for (int c = 0; c < 4; ++c)
-      for (int y = 64; y < kHeight - 64; ++y)
-        for (int x = 64; x < kWidth - 64; ++x)
-          difference = std::max(difference, double(std::abs(fused.at(c, x, y) - plugins.at(c, x, y))));
-    std::printf("step %2d: fused %6.1f ms, plugins %6.1f ms, ratio %.3f; largest difference %.1e\n", step,
-                by_fused * 1e3, by_plugins * 1e3, by_plugins / by_fused, difference);
-    sum_fused += by_fused, sum_plugins += by_plugins;
+    std::printf(
+        "  step %2d: padded %6.1f ms, with borders %6.1f ms, plugins %6.1f ms: %.3f and %.3f times; "
+        "largest difference %.1e\n",
+        step, spent[0] * 1e3, spent[1] * 1e3, spent[2] * 1e3, spent[2] / spent[0], spent[2] / spent[1],
+        difference(fused, plugins));
+    for (int k = 0; k < 3; ++k) sums[k] += spent[k];
   }
-  std::printf("five levels: fused %6.1f ms, plugins %6.1f ms, ratio %.3f\n", sum_fused * 1e3, sum_plugins * 1e3,
-              sum_plugins / sum_fused);
+  std::printf("  five levels: padded %.1f ms, with borders %.1f ms, plugins %.1f ms: %.3f and %.3f times\n",
+              sums[0] * 1e3, sums[1] * 1e3, sums[2] * 1e3, sums[2] / sums[0], sums[2] / sums[1]);
+}
+
+constexpr const char* kLevel = R"({
+  "quell": 1, "name": "Level",
+  "inputs": { "image": "radiance", "variance": "variance", "normal": "normal", "depth": "depth", "slope": "slope" },
+  "params": { "step": 1 },
+  "nodes": {
+    "by_normal":    { "type": "normal_weight", "in": { "normal": "normal" } },
+    "by_depth":     { "type": "depth_weight", "in": { "depth": "depth", "slope": "slope" } },
+    "by_luminance": { "type": "luminance_weight", "in": { "image": "image", "variance": "variance" } },
+    "atrous":       { "type": "atrous", "set": { "step": "$step" },
+                      "in": { "image": "image", "variance": "variance", "weights": ["by_normal", "by_depth", "by_luminance"] } }
+  },
+  "outputs": { "image": "atrous.image", "variance": "atrous.variance" }
+})";
+
+void on_the_host(int rounds, int threads) {
+  std::printf("%d thread%s, whole frames, the graph on the host's executor\n", threads, threads > 1 ? "s" : "");
+  double sums[3] = {};
+  for (const int step : kSteps) {
+    HostGraph graph(load("level.json", {"step=" + std::to_string(step)}, kLevel), kWidth, kHeight, threads);
+    Padded in(kWidth, kHeight, 4), guides(kWidth, kHeight, 6), out(kWidth, kHeight, 4);
+    const auto inputs = graph.inputs();
+    in.take(0, inputs[0]), in.take(3, inputs[1]);
+    guides.take(0, inputs[2]), guides.take(3, inputs[3]), guides.take(4, inputs[4]);
+    const FusedLevel level(kWidth, kHeight, kRule);
+    std::printf(" step %d\n", step);
+    const auto costs = contest(
+        rounds,
+        {{"fused, padded",
+          [&] { in_bands(threads, kHeight, [&](int a, int b) { level.band<false>(in, guides, out, step, a, b); }); }},
+         {"fused, with borders",
+          [&] { in_bands(threads, kHeight, [&](int a, int b) { level.band<true>(in, guides, out, step, a, b); }); }},
+         {"graph", [&] { graph.filter(); }}});
+    for (std::size_t k = 0; k < 3; ++k) sums[k] += costs[k].wall;
+  }
+  std::printf(" five levels, wall: padded %.1f ms, with borders %.1f ms, graph %.1f ms: %.3f and %.3f times\n",
+              sums[0] * 1e3, sums[1] * 1e3, sums[2] * 1e3, sums[2] / sums[0], sums[2] / sums[1]);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (!__builtin_cpu_supports("avx512dq")) return std::puts("needs a machine with AVX-512"), 1;
+  const int rounds = argc > 1 ? std::atoi(argv[1]) : 7;
+  flush_denormals();
+  band_by_band(rounds);
+  for (const int threads : {1, 2}) on_the_host(rounds, threads);
 }
 #else
 int main() { return std::puts("built without AVX-512: nothing to compare with"), 1; }
