@@ -1,6 +1,7 @@
 // The functions of quell/simd.h against the standard library in double precision, on every target.
 #include "tests/support/each_target.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -15,6 +16,9 @@ HWY_INLINE void map(const float* in, float* out, int n, Function function) {
 }
 void exp2_of(const float* in, float* out, int n) {
   map(in, out, n, [](V x) HWY_ATTR { return exp2(x); });
+}
+void exp2_or_zero_of(const float* in, float* out, int n) {
+  map(in, out, n, [](V x) HWY_ATTR { return exp2_or_zero(x); });
 }
 void log2_of(const float* in, float* out, int n) {
   map(in, out, n, [](V x) HWY_ATTR { return log2(x); });
@@ -32,6 +36,7 @@ QUELL_SIMD_END
 namespace quell {
 
 HWY_EXPORT(exp2_of);
+HWY_EXPORT(exp2_or_zero_of);
 HWY_EXPORT(log2_of);
 HWY_EXPORT(exp_of);
 HWY_EXPORT(luminance_of);
@@ -68,6 +73,30 @@ TEST(Simd, Exp2OfWholeNumbersIsExact) {
   test::for_each_target([&] {
     HWY_DYNAMIC_DISPATCH(exp2_of)(x.data(), y.data(), 253);
     for (std::size_t i = 0; i < 253; ++i) ASSERT_EQ(y[i], std::exp2(x[i]));
+  });
+}
+
+TEST(Simd, Exp2OrZero) {
+  const auto x = ramp(-125.99f, 127.0f, kCount);
+  test::for_each_target([&] {
+    std::vector<float> y(x.size());
+    HWY_DYNAMIC_DISPATCH(exp2_or_zero_of)(x.data(), y.data(), kCount);
+    for (std::size_t i = 0; i < kCount; ++i) ASSERT_NEAR(y[i] / std::exp2(double(x[i])), 1.0, 6e-7) << x[i];
+  });
+}
+
+TEST(Simd, Exp2OrZeroOfWholeNumbersIsExactAndOfTheRestZero) {
+  const float inf = HUGE_VALF, nan = std::nanf("");
+  const std::vector<float> whole{0, -1, -2, -17, -125, 1, 5, 127};
+  const std::vector<float> nothing{-inf, -1e30f, -1000, -201, -160, -151, nan, -nan};
+  test::for_each_target([&] {
+    std::vector<float> x(whole), y(kPadding * 2);
+    x.resize(y.size());
+    HWY_DYNAMIC_DISPATCH(exp2_or_zero_of)(x.data(), y.data(), int(whole.size()));
+    for (std::size_t i = 0; i < whole.size(); ++i) ASSERT_EQ(y[i], std::exp2(whole[i])) << whole[i];
+    std::copy(nothing.begin(), nothing.end(), x.begin());
+    HWY_DYNAMIC_DISPATCH(exp2_or_zero_of)(x.data(), y.data(), int(nothing.size()));
+    for (std::size_t i = 0; i < nothing.size(); ++i) ASSERT_EQ(y[i], 0.0f) << nothing[i];
   });
 }
 
