@@ -131,23 +131,24 @@ class FusedLevel {
     return _mm512_cmplt_epu32_mask(column, _mm512_set1_epi32(width_));
   }
 
-  template <bool kChecked>
-  V smooth_variance(const Row& row, int x, int y) const {
+  // (1 2 1) x (1 2 1) of the variance.
+  static V smooth_variance(const Row& row, int x) {
+    const auto along = [](const float* v) { return fma(all(2), load(v), _mm512_add_ps(load(v - 1), load(v + 1))); };
+    const float* v = row.in[kVariance] + x;
+    const V around = _mm512_add_ps(along(v - row.pitch), along(v + row.pitch));
+    return _mm512_mul_ps(all(1 / 16.f), fma(all(2), along(v), around));
+  }
+  V smooth_variance_inside(const Row& row, int x, int y) const {
     V sum = _mm512_setzero_ps(), weights = sum;
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
-        const V k = all(float((2 - std::abs(dx)) * (2 - std::abs(dy))) / 16);
-        const float* v = row.in[kVariance] + x + dy * row.pitch + dx;
-        if constexpr (kChecked) {
-          if (y + dy < 0 || y + dy >= height_) continue;
-          const __mmask16 inside = columns(x, dx);
-          sum = _mm512_mask3_fmadd_ps(k, load(v), sum, inside);
-          weights = _mm512_mask_add_ps(weights, inside, weights, k);
-        } else {
-          sum = fma(k, load(v), sum);
-        }
+        if (y + dy < 0 || y + dy >= height_) continue;
+        const V k = all(float((2 - std::abs(dx)) * (2 - std::abs(dy))));
+        const __mmask16 inside = columns(x, dx);
+        sum = _mm512_mask3_fmadd_ps(k, load(row.in[kVariance] + x + dy * row.pitch + dx), sum, inside);
+        weights = _mm512_mask_add_ps(weights, inside, weights, k);
       }
-    return kChecked ? _mm512_div_ps(sum, weights) : sum;
+    return _mm512_div_ps(sum, weights);
   }
 
   template <bool kChecked>
@@ -159,7 +160,7 @@ class FusedLevel {
     const V r = load(ir), g = load(ig), b = load(ib), v = load(iv), l = luminance(r, g, b);
     const V nx = load(inx), ny = load(iny), nz = load(inz), z = load(iz);
     const V sx = load(row.guide[kSlopeX] + x), sy = load(row.guide[kSlopeY] + x);
-    const V noise = rule_.blur ? smooth_variance<kChecked>(row, x, y) : v;
+    const V noise = !rule_.blur ? v : kChecked ? smooth_variance_inside(row, x, y) : smooth_variance(row, x);
     const V by_luminance = _mm512_div_ps(
         all(kLog2E), fma(all(rule_.sigma_luminance), _mm512_sqrt_ps(_mm512_max_ps(noise, all(0))), all(rule_.epsilon)));
     const V c1 = all(-rule_.power * kLog2E), c2 = all(-rule_.power * kLog2E / 2), c3 = all(-rule_.power * kLog2E / 3);
