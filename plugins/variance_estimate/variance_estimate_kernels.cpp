@@ -39,13 +39,26 @@ inline void by_space(const Estimate& e, Sums& sums, std::ptrdiff_t at, int n) {
   }
 }
 
+// The window is taken in blocks of what weight nodes step by at least, for young pixels line the edges of what moved:
+// whole segments around them would be ten times their number.
+constexpr int kBlock = 32;
+
 void estimate(const Estimate& e, const quell_tile& tile) {
   Sums sums(e.gather.planes.size());
   for_each_segment(tile, 1, e.gather.taps.reach_x, e.gather.width, [&](int x, int y, int n) HWY_ATTR {
     const std::ptrdiff_t at = y * e.gather.pitch + x;
-    if (!any_young(e, at, n)) return by_time(e, at, n);
-    gather(e.gather, x, y, n, sums);
-    by_space(e, sums, at, n);
+    const auto end_of = [n](int from) HWY_ATTR { return from + kBlock < n ? from + kBlock : n; };
+    const auto young = [&](int from) HWY_ATTR { return any_young(e, at + from, end_of(from) - from); };
+    for (int from = 0, end; from < n; from = end) {
+      end = end_of(from);
+      if (!young(from)) {
+        by_time(e, at + from, end - from);
+        continue;
+      }
+      while (end < n && young(end)) end = end_of(end);
+      gather(e.gather, x + from, y, end - from, sums);
+      by_space(e, sums, at + from, end - from);
+    }
   });
 }
 
