@@ -6,71 +6,94 @@
 
 QUELL_SIMD_BEGIN
 
-constexpr float kMiss = 0.5e30f;  // half of kFar
+constexpr float kMiss = 0.5e30f;            // half of kFar
+constexpr float kNoMiss = 0x1.93e592p+98f;  // the number before it
 // Valid taps that hold less of the bilinear weight than this say too little (Falcor's SVGF uses the same number).
 constexpr float kLeast = 0.01f;
 
-// The surface that a vector of pixels shows now, and how far another may be from it.
-struct Surface {
-  V depth, tolerance, nx, ny, nz;
-  M depth_miss, normal_miss;
-  I id;
-};
-
-HWY_INLINE M is_miss(V nx, V ny, V nz) { return hn::And(hn::And(nx == zero(), ny == zero()), nz == zero()); }
-
-HWY_INLINE Surface surface_at(const TapGuides& g, const TapRules& rules, int x) {
-  Surface s{};
-  if (g.id) s.id = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(g.id + x));
-  if (g.depth) {
-    s.depth = load(g.depth + x);
-    s.depth_miss = s.depth >= all(kMiss);
-    const V slopes = g.slope[0] ? hn::Abs(load(g.slope[0] + x)) + hn::Abs(load(g.slope[1] + x)) : zero();
-    s.tolerance = all(rules.depth_tolerance) * mul_add(all(rules.depth_floor), s.depth, slopes);
-  }
-  if (g.normal[0]) {
-    s.nx = load(g.normal[0] + x), s.ny = load(g.normal[1] + x), s.nz = load(g.normal[2] + x);
-    s.normal_miss = is_miss(s.nx, s.ny, s.nz);
-  }
-  return s;
-}
-
-// Where the previous pixels show the same surface. Misses agree with misses alone.
-HWY_INLINE M agrees(const Surface& s, const TapGuides& g, const Around& before, float cosine) {
-  M ok = hn::FirstN(d, std::size_t(kLanes));
-  if (g.id) ok = hn::RebindMask(d, hn::Eq(s.id, before.read(g.id_before)));
-  if (g.depth) {
-    const V then = before.read(g.depth_before);
-    const M miss = then >= all(kMiss);
-    const M near = hn::AndNot(miss, hn::Abs(s.depth - then) <= s.tolerance);
-    ok = hn::And(ok, hn::Or(hn::And(s.depth_miss, miss), hn::AndNot(s.depth_miss, near)));
-  }
-  if (g.normal[0]) {
-    const V nx = before.read(g.normal_before[0]), ny = before.read(g.normal_before[1]),
-            nz = before.read(g.normal_before[2]);
-    const M miss = is_miss(nx, ny, nz);
-    const M alike = hn::AndNot(miss, mul_add(s.nx, nx, mul_add(s.ny, ny, s.nz * nz)) >= all(cosine));
-    ok = hn::And(ok, hn::Or(hn::And(s.normal_miss, miss), hn::AndNot(s.normal_miss, alike)));
-  }
-  return ok;
-}
-
-// One bit a previous pixel of the 4x4 around the positions, row by row.
-HWY_INLINE I valid_bits(const Footprint& f, const TapGuides& g, const TapRules& rules, int x) {
-  const Surface s = surface_at(g, rules, x);
+// One bit for each previous pixel of the 4x4 around a position, row by row, for which test(column, row) holds.
+template <class Test>
+HWY_INLINE I bits_where(Test test) {
   I bits = hn::Zero(di);
-  for (int dy = -1; dy <= 2; ++dy) {
-    const I v = f.y + hn::Set(di, dy);
-    const auto row = hn::And(v > hn::Set(di, -1), v < hn::Set(di, g.height));
-    for (int dx = -1; dx <= 2; ++dx) {
-      const I u = f.x + hn::Set(di, dx);
-      const auto in = hn::And(row, hn::And(u > hn::Set(di, -1), u < hn::Set(di, g.width)));
-      const Around before(f, dx, dy, g.width, g.height, g.pitch);
-      const M ok = hn::And(hn::RebindMask(d, in), agrees(s, g, before, rules.normal_cosine));
-      bits = bits | hn::IfThenElseZero(hn::RebindMask(di, ok), hn::Set(di, 1 << (4 * (dy + 1) + dx + 1)));
-    }
+  HWY_UNROLL(4)
+  for (int j = 0; j < 4; ++j) {
+    HWY_UNROLL(4)
+    for (int i = 0; i < 4; ++i)
+      bits = bits | hn::IfThenElseZero(hn::RebindMask(di, test(i, j)), hn::Set(di, 1 << (4 * j + i)));
   }
-  return hn::IfThenElseZero(hn::RebindMask(di, f.inside), bits);
+  return bits;
+}
+
+HWY_INLINE I load_bits(const std::uint32_t* from) { return hn::LoadU(di, reinterpret_cast<const std::int32_t*>(from)); }
+
+template <class Square>
+HWY_INLINE I same_id(const TapGuides& g, int x, const Square& square) {
+  const I now = load_bits(g.id + x);
+  const auto* before = reinterpret_cast<const float*>(g.id_before);
+  return bits_where([&](int i, int j) HWY_ATTR {
+    return hn::RebindMask(d, hn::Eq(hn::BitCast(di, square.read(before, i, j)), now));
+  });
+}
+
+// Depths between two limits; where the pixel is a miss, misses.
+template <class Square>
+HWY_INLINE I near_depth(const TapGuides& g, const TapRules& rules, int x, const Square& square) {
+  const V depth = load(g.depth + x), miss = all(kMiss);
+  const V slopes = g.slope[0] ? hn::Abs(load(g.slope[0] + x)) + hn::Abs(load(g.slope[1] + x)) : zero();
+  const V tolerance = all(rules.depth_tolerance) * mul_add(all(rules.depth_floor), depth, slopes);
+  const M is_miss = depth >= miss;
+  const V least = hn::IfThenElse(is_miss, miss, depth - tolerance);
+  const V most = hn::IfThenElse(is_miss, all(HUGE_VALF), hn::Min(depth + tolerance, all(kNoMiss)));
+  return bits_where([&](int i, int j) HWY_ATTR {
+    const V then = square.read(g.depth_before, i, j);
+    return hn::And(then >= least, then <= most);
+  });
+}
+
+HWY_INLINE M is_miss(V nx, V ny, V nz) { return hn::Or3(nx, ny, nz) == zero(); }
+
+template <class Square>
+HWY_INLINE I like_normal(const TapGuides& g, const TapRules& rules, int x, const Square& square) {
+  const V nx = load(g.normal[0] + x), ny = load(g.normal[1] + x), nz = load(g.normal[2] + x);
+  const V least = all(rules.normal_cosine);
+  const M miss = is_miss(nx, ny, nz);
+  const auto cosine = [&](V x_then, V y_then, V z_then)
+                          HWY_ATTR { return mul_add(nx, x_then, mul_add(ny, y_then, nz * z_then)); };
+  // The cosine with a miss is 0, which tells it from surfaces that agree unless these may stand at a right angle.
+  if (HWY_LIKELY(rules.normal_cosine > 0 && hn::AllFalse(d, miss)))
+    return bits_where([&](int i, int j) HWY_ATTR {
+      return cosine(square.read(g.normal_before[0], i, j), square.read(g.normal_before[1], i, j),
+                    square.read(g.normal_before[2], i, j)) >= least;
+    });
+  return bits_where([&](int i, int j) HWY_ATTR {
+    const V x_then = square.read(g.normal_before[0], i, j), y_then = square.read(g.normal_before[1], i, j),
+            z_then = square.read(g.normal_before[2], i, j);
+    const M miss_then = is_miss(x_then, y_then, z_then);
+    return hn::Or(hn::And(miss, miss_then),
+                  hn::AndNot(hn::Or(miss, miss_then), cosine(x_then, y_then, z_then) >= least));
+  });
+}
+
+// The pixels of the 4x4 that lie in the image.
+HWY_INLINE I in_image(const Footprint& f, const TapGuides& g) {
+  return bits_where([&](int i, int j) HWY_ATTR {
+    const I x = f.x + hn::Set(di, i - 1), y = f.y + hn::Set(di, j - 1);
+    const auto in_row = hn::And(x > hn::Set(di, -1), x < hn::Set(di, g.width));
+    return hn::RebindMask(d, hn::And(in_row, hn::And(y > hn::Set(di, -1), y < hn::Set(di, g.height))));
+  });
+}
+
+// The pixels of the 4x4 that show the same surface by all guides.
+HWY_INLINE I valid_bits(const Footprint& f, const TapGuides& g, const TapRules& rules, int x) {
+  I bits = hn::IfThenElseZero(hn::RebindMask(di, f.inside), hn::Set(di, 0xFFFF));
+  with_square<-1, 4>(f, {g.width, g.height, g.pitch}, [&](const auto& square) HWY_ATTR {
+    if (g.id) bits = bits & same_id(g, x, square);
+    if (g.depth) bits = bits & near_depth(g, rules, x, square);
+    if (g.normal[0]) bits = bits & like_normal(g, rules, x, square);
+  });
+  const bool within =
+      f.lines == 1 && f.line.x >= 1 && f.line.x + kLanes + 2 <= g.width && f.line.y >= 1 && f.line.y + 3 <= g.height;
+  return HWY_LIKELY(within) ? bits : bits & in_image(f, g);
 }
 
 // The 3x3 around the nearest pixel out of the 4x4, and whether all of that is valid.
@@ -92,7 +115,7 @@ void row_of_taps(const TapGuides& g, const TapRules& rules, int y, int x0, int x
   for (int x = x0; x < x1; x += kLanes) {
     const int count = x1 - x;
     const Footprint f = footprint(g.motion[0], g.motion[1], x, y, count, g.width, g.height);
-    if (f.empty) {
+    if (f.lines == 0) {
       for (int t = 0; t < 4; ++t) store(zero(), weight[t] + x, count);
       store_bits(hn::Zero(di), mask + x, count);
       continue;

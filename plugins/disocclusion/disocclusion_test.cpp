@@ -22,7 +22,7 @@ using quell::test::normal_image;
 
 constexpr std::uint32_t kWhole = 1u << 9;
 
-// A frame with three objects, edges in depth, and sky.
+// A frame with three objects, edges in depth, and sky in its upper half.
 struct Frame {
   Image depth, normal, id, slope;
 
@@ -31,7 +31,7 @@ struct Frame {
     slope.fill(0.01f);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
-        const int object = (x + shift) / 5 % 4;
+        const int object = (x + shift) / 5 % (2 * y < height ? 4 : 3);
         depth.at(0, x, y) = object == 3 ? kFar : 2.0f + float(object) + 0.02f * float(y);
         id.bits(0, y)[x] = object == 3 ? kNoId : std::uint32_t(object);
         if (object == 3)
@@ -76,19 +76,25 @@ Node disocclusion(const Frame& now, const Frame& then, const Image& motion) {
 
 TEST(Disocclusion, FollowsItsRules) {
   for_each_target([&] {
-    const int width = 37, height = 19;
+    const int width = 101, height = 19;
     const Frame now(width, height, 0), then(width, height, 3);
-    // Quarters of a pixel, so that positions and weights are the same in float and double.
+    // Quarters of a pixel, so that positions and weights are the same in float and double. Where they change slowly,
+    // the positions of a vector lie in one line, in two or in more; where they are noise, anywhere.
     auto motion = noise_image(width, height, 2, 11, -12, 12);
-    for (int c = 0; c < 2; ++c)
-      for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) motion.at(c, x, y) = std::round(motion.at(c, x, y)) / 4;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        if (y % 2) motion.at(0, x, y) = float(x / 6 - 8), motion.at(1, x, y) = float((x + 2 * y) / 11 - 6);
+        for (int c = 0; c < 2; ++c) motion.at(c, x, y) = std::round(motion.at(c, x, y)) / 4;
+      }
 
     for (const bool nearest : {false, true})
       for (const bool fallback : {true, false}) {
+        Rules rules;
+        if (!fallback) rules.normal_cosine = -0.25;
         const auto taps = disocclusion(now, then, motion)
                               .set("mode", nearest ? "nearest" : "bilinear")
                               .set("fallback", fallback)
+                              .set("normal_cosine", float(rules.normal_cosine))
                               .run("taps");
         int partial = 0, whole = 0, only_around = 0;
         for (int y = 0; y < height; ++y)
@@ -107,11 +113,11 @@ TEST(Disocclusion, FollowsItsRules) {
                 const int u = bx + t % 2, v = by + t / 2;
                 const double w =
                     nearest ? double(u == nx && v == ny) : (1 - std::abs(sx - 0.5 - u)) * (1 - std::abs(sy - 0.5 - v));
-                if (agree(now, x, y, then, u, v, {})) sum += weight[t] = w;
+                if (agree(now, x, y, then, u, v, rules)) sum += weight[t] = w;
               }
               for (int t = 0; t < 9; ++t)
-                if (agree(now, x, y, then, nx + t % 3 - 1, ny + t / 3 - 1, {})) mask |= 1u << t;
-              for (int t = 0; t < 16; ++t) count += agree(now, x, y, then, bx - 1 + t % 4, by - 1 + t / 4, {});
+                if (agree(now, x, y, then, nx + t % 3 - 1, ny + t / 3 - 1, rules)) mask |= 1u << t;
+              for (int t = 0; t < 16; ++t) count += agree(now, x, y, then, bx - 1 + t % 4, by - 1 + t / 4, rules);
               if (count == 16) mask |= kWhole;
             }
             if (sum < 0.01 && !fallback) mask = 0;

@@ -12,16 +12,39 @@
 
 QUELL_SIMD_BEGIN
 
+// Shape of the previous frame.
+struct Extent {
+  int width, height;
+  std::ptrdiff_t pitch;
+};
+
+// A row of positions as far apart as the pixels themselves: the north-west tap of lane 0.
+struct Line {
+  int x = 0, y = 0;
+};
+
 // Previous positions of a vector of pixels. Pixel centres count as whole numbers, so a position lies in the image where
 // it is in [-1/2, size - 1/2).
 struct Footprint {
-  M inside;       // what follows is meant for these lanes only; the others hold 0
-  V fx, fy;       // position between the four bilinear taps, [0, 1]
-  I x, y;         // the north-west one; may be -1
-  bool straight;  // all lanes that are inside lie in one row, as far apart as the pixels themselves
-  int x0, y0;     // then: north-west tap of lane 0
-  bool empty;     // none is inside
+  M inside;         // what follows is meant for these lanes only; the others hold 0
+  V fx, fy;         // position between the four bilinear taps, [0, 1]
+  I x, y;           // the north-west one; may be -1
+  int lines;        // in how many lines they lie: 0 where none is inside, 1, 2, or 3 for more
+  Line line, next;  // the first two of them
+  M in_next;        // lanes of the second
 };
+
+// The line of the first of these lanes, which leaves those beside it.
+HWY_INLINE Line line_of(I x, I y, M& lanes) {
+  HWY_ALIGN std::int32_t xs[kLanes], ys[kLanes];
+  hn::Store(x, di, xs);
+  hn::Store(y, di, ys);
+  const auto first = hn::FindFirstTrue(d, lanes);
+  const Line line{xs[first] - int(first), ys[first]};
+  const auto along = hn::And(hn::Eq(x, hn::Iota(di, line.x)), hn::Eq(y, hn::Set(di, line.y)));
+  lanes = hn::AndNot(hn::RebindMask(d, along), lanes);
+  return line;
+}
 
 // Pixels x, x + 1, … of row y, of which the first `count` matter. Motion that is NaN leads out of the image.
 HWY_INLINE Footprint footprint(const float* motion_x, const float* motion_y, int x, int y, int count, int width,
@@ -37,52 +60,80 @@ HWY_INLINE Footprint footprint(const float* motion_x, const float* motion_y, int
   f.fy = hn::IfThenElseZero(f.inside, py - by);
   f.x = hn::ConvertTo(di, bx);
   f.y = hn::ConvertTo(di, by);
-  const auto first = hn::FindFirstTrue(d, f.inside);
-  f.empty = first < 0;
-  f.straight = f.empty;
-  f.x0 = f.y0 = 0;
-  if (f.empty) return f;
-  HWY_ALIGN std::int32_t xs[kLanes], ys[kLanes];
-  hn::Store(f.x, di, xs);
-  hn::Store(f.y, di, ys);
-  f.x0 = xs[first] - int(first);
-  f.y0 = ys[first];
-  const auto in_line = hn::And(hn::Eq(f.x, hn::Iota(di, f.x0)), hn::Eq(f.y, hn::Set(di, f.y0)));
-  f.straight = hn::AllTrue(d, hn::Or(hn::RebindMask(d, in_line), hn::Not(f.inside)));
+  f.in_next = f.inside;
+  f.lines = 0;
+  if (HWY_UNLIKELY(hn::AllFalse(d, f.inside))) return f;
+  f.line = line_of(f.x, f.y, f.in_next);
+  f.lines = 1;
+  if (HWY_LIKELY(hn::AllFalse(d, f.in_next))) return f;
+  M rest = f.in_next;
+  f.next = line_of(f.x, f.y, rest);
+  f.lines = hn::AllFalse(d, rest) ? 2 : 3;
   return f;
 }
 
-// The pixels (dx, dy) from the north-west taps of a vector of positions: read by loads where they lie in line and by
-// gathers where not, which gives the same numbers.
-class Around {
+// The square of pixels from kFirst to kFirst + kSide - 1, in both directions, from the north-west taps. Three ways to
+// read it, which give the same numbers: loads where the positions lie in one line, …
+template <int kFirst, int kSide>
+class Straight {
  public:
-  HWY_INLINE Around(const Footprint& f, int dx, int dy, int width, int height, std::ptrdiff_t pitch)
-      : straight_(f.straight) {
-    if (straight_) {
-      // The row is held inside, for it is read even where it does not count. Columns beside it lie in the margin.
-      const int row = f.y0 + dy;
-      offset_ = (row < 0 ? 0 : row >= height ? height - 1 : row) * pitch + f.x0 + dx;
-      index_ = hn::Zero(di);
-    } else {
-      offset_ = 0;
-      const I x = hn::Min(hn::Max(f.x + hn::Set(di, dx), hn::Zero(di)), hn::Set(di, width - 1));
-      const I y = hn::Min(hn::Max(f.y + hn::Set(di, dy), hn::Zero(di)), hn::Set(di, height - 1));
-      index_ = y * hn::Set(di, std::int32_t(pitch)) + x;
+  HWY_INLINE Straight(const Line& line, const Extent& e) {
+    // Rows are held inside, for they are read even where they do not count. Columns beside them lie in the margin.
+    for (int j = 0; j < kSide; ++j) {
+      const int row = line.y + kFirst + j;
+      row_[j] = (row < 0 ? 0 : row >= e.height ? e.height - 1 : row) * e.pitch + line.x + kFirst;
     }
   }
-  HWY_INLINE V read(const float* plane) const {
-    return straight_ ? load(plane + offset_) : hn::GatherIndex(d, plane, index_);
-  }
-  HWY_INLINE I read(const std::uint32_t* plane) const {
-    const auto* p = reinterpret_cast<const std::int32_t*>(plane);
-    return straight_ ? hn::LoadU(di, p + offset_) : hn::GatherIndex(di, p, index_);
+  HWY_INLINE V read(const float* plane, int i, int j) const { return load(plane + row_[j] + i); }
+
+ private:
+  std::ptrdiff_t row_[kSide];
+};
+
+// … two loads where they lie in two, …
+template <int kFirst, int kSide>
+class Broken {
+ public:
+  HWY_INLINE Broken(const Footprint& f, const Extent& e) : first_(f.line, e), then_(f.next, e), in_next_(f.in_next) {}
+  HWY_INLINE V read(const float* plane, int i, int j) const {
+    return hn::IfThenElse(in_next_, then_.read(plane, i, j), first_.read(plane, i, j));
   }
 
  private:
-  bool straight_;
-  std::ptrdiff_t offset_;
-  I index_;
+  Straight<kFirst, kSide> first_, then_;
+  M in_next_;
 };
+
+// … and gathers anywhere.
+template <int kFirst, int kSide>
+class Scattered {
+ public:
+  HWY_INLINE Scattered(I x, I y, const Extent& e) {
+    for (int j = 0; j < kSide; ++j) {
+      const I row = held(y + hn::Set(di, kFirst + j), e.height) * hn::Set(di, std::int32_t(e.pitch));
+      for (int i = 0; i < kSide; ++i)
+        hn::Store(row + held(x + hn::Set(di, kFirst + i), e.width), di, index_[j * kSide + i]);
+    }
+  }
+  HWY_INLINE V read(const float* plane, int i, int j) const {
+    return hn::GatherIndex(d, plane, hn::Load(di, index_[j * kSide + i]));
+  }
+
+ private:
+  static HWY_INLINE I held(I v, int size) { return hn::Min(hn::Max(v, hn::Zero(di)), hn::Set(di, size - 1)); }
+  alignas(64) std::int32_t index_[kSide * kSide][kLanes];
+};
+
+// Calls use(square) with the quickest of the three.
+template <int kFirst, int kSide, class Use>
+HWY_INLINE void with_square(const Footprint& f, const Extent& e, Use&& use) {
+  if (HWY_LIKELY(f.lines < 2))
+    use(Straight<kFirst, kSide>(f.line, e));
+  else if (f.lines == 2)
+    use(Broken<kFirst, kSide>(f, e));
+  else
+    use(Scattered<kFirst, kSide>(f.x, f.y, e));
+}
 
 QUELL_SIMD_END
 #endif

@@ -14,77 +14,61 @@
 
 QUELL_SIMD_BEGIN
 
+HWY_INLINE Extent extent_of(const TapsRow& row) { return {row.width, row.height, row.pitch}; }
+
 // What the taps of one vector of pixels say.
 struct Support {
+  HWY_INLINE Support(const TapsRow& row, int x, int count)
+      : at(footprint(row.motion[0], row.motion[1], x, row.y, count, row.width, row.height)),
+        weight{load(row.weight[0] + x), load(row.weight[1] + x), load(row.weight[2] + x), load(row.weight[3] + x)},
+        some{counts(0), counts(1), counts(2), counts(3)},
+        mask(hn::LoadU(di, reinterpret_cast<const std::int32_t*>(row.mask + x)) &
+             hn::Set(di, std::int32_t(kTapsAround))) {
+    const M settled = hn::Or(hn::Or(some[0], some[1]), hn::Or(some[2], some[3]));
+    scattered = hn::And(hn::AndNot(settled, at.inside), hn::RebindMask(d, mask > hn::Zero(di)));
+  }
+
   Footprint at;
   V weight[4];
-  M some[4];    // taps that count; the others may hold anything
+  M some[4];  // taps that count; the others may hold anything
+  I mask;
   M scattered;  // no tap counts, but the mask holds valid pixels around the nearest one
+
+ private:
+  HWY_INLINE M counts(int k) const { return hn::And(at.inside, weight[k] != zero()); }
 };
 
-HWY_INLINE Support support_at(const TapsRow& row, int x, int count) {
-  Support s;
-  s.at = footprint(row.motion[0], row.motion[1], x, row.y, count, row.width, row.height);
-  M settled = hn::Not(s.at.inside);
-  for (int k = 0; k < 4; ++k) {
-    s.weight[k] = load(row.weight[k] + x);
-    s.some[k] = hn::And(s.at.inside, s.weight[k] != zero());
-    settled = hn::Or(settled, s.some[k]);
-  }
-  const I mask = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(row.mask + x));
-  const I around = mask & hn::Set(di, std::int32_t(kTapsAround));
-  s.scattered = hn::AndNot(settled, hn::RebindMask(d, around > hn::Zero(di)));
-  return s;
+// Calls use(tap) where tap(k, plane) reads the four taps: 0 where one does not count.
+template <class Use>
+HWY_INLINE void with_taps(const Support& s, const TapsRow& row, Use&& use) {
+  with_square<0, 2>(s.at, extent_of(row), [&](const auto& square) HWY_ATTR {
+    use([&](int k, const float* plane)
+            HWY_ATTR { return hn::IfThenElseZero(s.some[k], square.read(plane, k % 2, k / 2)); });
+  });
 }
 
-// The four taps, to be read of any plane.
-class TapReader {
+// The valid pixels around the positions of a vector, all alike (Schied et al. 2017, section 4.1).
+class Neighbourhood {
  public:
-  HWY_INLINE TapReader(const Support& s, const TapsRow& r)
-      : s_(s),
-        tap_{{s.at, 0, 0, r.width, r.height, r.pitch},
-             {s.at, 1, 0, r.width, r.height, r.pitch},
-             {s.at, 0, 1, r.width, r.height, r.pitch},
-             {s.at, 1, 1, r.width, r.height, r.pitch}} {}
-  // 0 where the tap does not count.
-  HWY_INLINE V read(int tap, const float* plane) const {
-    return hn::IfThenElseZero(s_.some[tap], tap_[tap].read(plane));
+  HWY_INLINE Neighbourhood(const Support& s, const TapsRow& row)
+      : mask_(s.mask), square_(s.at.x + rounded(s.at.fx), s.at.y + rounded(s.at.fy), extent_of(row)) {}
+  HWY_INLINE V mean(const float* plane) const {
+    V sum = zero(), n = zero();
+    for (int t = 0; t < 9; ++t) {
+      const M valid = hn::RebindMask(d, hn::TestBit(mask_, hn::Set(di, 1 << t)));
+      sum = sum + hn::IfThenElseZero(valid, square_.read(plane, t % 3, t / 3));
+      n = n + hn::IfThenElseZero(valid, all(1.0f));
+    }
+    return sum / n;
   }
 
  private:
-  const Support& s_;
-  Around tap_[4];
+  static HWY_INLINE I rounded(V fraction) {
+    return hn::IfThenElseZero(hn::RebindMask(di, fraction >= all(0.5f)), hn::Set(di, 1));
+  }
+  I mask_;
+  Scattered<-1, 3> square_;
 };
-
-HWY_INLINE int held(int v, int size) { return v < 0 ? 0 : v >= size ? size - 1 : v; }
-
-// Pixel that holds a position of a footprint, which is at least -1/2.
-HWY_INLINE int nearest(float position) {
-  const int whole = int(position);
-  return whole + (position - float(whole) >= 0.5f);
-}
-
-// Mean of the valid pixels around the position of pixel x, all alike (Schied et al. 2017, section 4.1).
-HWY_INLINE float mean_around(const TapsRow& row, const float* plane, int x) {
-  const int at_x = nearest(float(x) + row.motion[0][x]), at_y = nearest(float(row.y) + row.motion[1][x]);
-  float sum = 0, n = 0;
-  for (int t = 0; t < 9; ++t)
-    if (row.mask[x] >> t & 1) {
-      sum += plane[held(at_y + t / 3 - 1, row.height) * row.pitch + held(at_x + t % 3 - 1, row.width)];
-      ++n;
-    }
-  return sum / n;
-}
-
-// Calls use(x) for each pixel of the vector at x whose history is scattered.
-template <class Use>
-HWY_INLINE void each_scattered(const Support& s, int x, int count, Use&& use) {
-  if (hn::AllFalse(d, s.scattered)) return;
-  HWY_ALIGN float flag[kLanes];
-  hn::Store(hn::IfThenElseZero(s.scattered, all(1.0f)), d, flag);
-  for (int i = 0; i < kLanes && i < count; ++i)
-    if (flag[i] != 0) use(x + i);
-}
 
 QUELL_SIMD_END
 #endif

@@ -6,17 +6,22 @@
 QUELL_SIMD_BEGIN
 
 void warp(const TapsRow& row, int x0, int x1, const quell_image& from, const quell_image& to) {
+  const std::ptrdiff_t at = row.y * to.pitch;
   for (int x = x0; x < x1; x += kLanes) {
-    const int count = x1 - x;
-    const Support s = support_at(row, x, count);
-    const TapReader taps(s, row);
+    const Support s(row, x, x1 - x);
+    with_taps(s, row, [&](const auto& tap) HWY_ATTR {
+      for (int c = 0; c < from.channels; ++c) {
+        V sum = s.weight[0] * tap(0, from.plane[c]);
+        HWY_UNROLL(3)
+        for (int k = 1; k < 4; ++k) sum = mul_add(s.weight[k], tap(k, from.plane[c]), sum);
+        store(sum, to.plane[c] + at + x, x1 - x);
+      }
+    });
+    if (HWY_LIKELY(hn::AllFalse(d, s.scattered))) continue;
+    const Neighbourhood around(s, row);
     for (int c = 0; c < from.channels; ++c) {
-      const float* plane = from.plane[c];
-      float* out = to.plane[c] + row.y * to.pitch;
-      V sum = s.weight[0] * taps.read(0, plane);
-      for (int k = 1; k < 4; ++k) sum = mul_add(s.weight[k], taps.read(k, plane), sum);
-      store(sum, out + x, count);
-      each_scattered(s, x, count, [&](int u) HWY_ATTR { out[u] = mean_around(row, plane, u); });
+      float* out = to.plane[c] + at + x;
+      store(hn::IfThenElse(s.scattered, around.mean(from.plane[c]), load(out)), out, x1 - x);
     }
   }
 }

@@ -17,7 +17,8 @@ using quell::test::noise_image;
 struct Guides {
   Image motion, id, id_before, taps;
 
-  // Objects are 0 and 1, at random.
+  // Objects are 0 and 1, at random. Motion is noise, and in odd rows smooth, so that the positions of a vector lie in a
+  // few lines.
   Guides(int width, int height, float reach)
       : motion(noise_image(width, height, 2, 3, -reach, reach)), id(width, height, 1), id_before(width, height, 1) {
     const auto now = noise_image(width, height, 1, 4), then = noise_image(width, height, 1, 5);
@@ -26,13 +27,16 @@ struct Guides {
         id.bits(0, y)[x] = now.at(0, x, y) < 0.5f;
         id_before.bits(0, y)[x] = then.at(0, x, y) < 0.5f;
       }
+    for (int y = 1; y < height; y += 2)
+      for (int x = 0; x < width; ++x)
+        motion.at(0, x, y) = 0.03f * float(x) - 1, motion.at(1, x, y) = 0.5f - 0.04f * float(x + y);
     taps = Node("disocclusion").in("motion", motion).in("id", id).in("id_before", id_before).run("taps");
   }
 };
 
 TEST(Reproject, AveragesTheValidTaps) {
   for_each_target([&] {
-    const int width = 37, height = 19;
+    const int width = 101, height = 19;
     Guides s(width, height, 4);
     const auto before = noise_image(width, height, 3, 9);
     const auto out = Node("reproject").in("image", before).in("motion", s.motion).in("taps", s.taps).run("image");
