@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 namespace {
 
@@ -45,14 +47,36 @@ struct Separable {
         .range(0.1f, 1000.0f);
   }
 
-  void run(const quell::Tile& tile) const {
+  double weight(int distance) const {
+    return kernel == Kernel::flat ? 1.0 : std::exp(-distance * distance / (2.0 * sigma * sigma));
+  }
+
+  void run(const quell::Tile& tile) const { tile[weights].empty() ? convolve(tile) : gather(tile); }
+
+  void gather(const quell::Tile& tile) const {
     const quell_image& in = tile[image];
     quell::TapSet taps;
-    for (int d = 1; d <= reach(); ++d) {
-      const double k = kernel == Kernel::flat ? 1.0 : std::exp(-d * d / (2.0 * sigma * sigma));
-      direction == Direction::horizontal ? taps.add_pair(d, 0, k, in.pitch) : taps.add_pair(0, d, k, in.pitch);
-    }
+    for (int d = 1; d <= reach(); ++d)
+      direction == Direction::horizontal ? taps.add_pair(d, 0, weight(d), in.pitch)
+                                         : taps.add_pair(0, d, weight(d), in.pitch);
     quell::separable_tile(quell::gather_of(taps, tile[weights], in), tile, tile[filtered]);
+  }
+
+  void convolve(const quell::Tile& tile) const {
+    const quell_image& in = tile[image];
+    const int r = reach();
+    std::vector<double> w;
+    for (int d = -r; d <= r; ++d) w.push_back(weight(d));
+    quell::Convolution c{r, {w.begin(), w.end()}, {}};
+    const bool along_x = direction == Direction::horizontal;
+    const int begin = along_x ? tile.x0 : tile.y0, end = along_x ? tile.x1 : tile.y1,
+              size = along_x ? in.width : in.height;
+    for (int at = begin; at < end; ++at) {
+      const int first = std::max(0, r - at), last = std::min(2 * r, size - 1 - at + r);
+      c.inverse.push_back(float(1 / std::accumulate(w.begin() + first, w.begin() + last + 1, 0.0)));
+    }
+    c.inverse.resize(c.inverse.size() + quell::Convolution::kPad);
+    along_x ? quell::convolve_rows(c, tile, in, tile[filtered]) : quell::convolve_columns(c, tile, in, tile[filtered]);
   }
 };
 
