@@ -38,6 +38,26 @@ TEST(Window, BilateralFilter) {
   }
 }
 
+TEST(Window, DiscLeavesTheCornersOut) {
+  const auto image = noise_image(60, 40, 2, 45);
+  for (const int radius : {1, 2, 7}) {
+    Node node("window");
+    node.set("radius", radius).set("shape", "disc").set("sigma", 3.0f).in("image", image);
+    const FilterOracle expected{radius,
+                                1,
+                                [=](int dx, int dy) {
+                                  const int squared = dx * dx + dy * dy;
+                                  return squared <= radius * radius ? std::exp(-squared / (2 * 3.0 * 3.0)) : 0.0;
+                                },
+                                {}};
+    for_each_target([&] {
+      EXPECT_LE(
+          largest_difference(node.run("image"), [&](int c, int x, int y) { return expected.mean(image, c, x, y); }),
+          5e-6);
+    });
+  }
+}
+
 TEST(Window, FlatKernelIsTheMean) {
   const auto image = noise_image(60, 40, 2, 42);
   Node node("window");
