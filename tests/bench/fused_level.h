@@ -7,39 +7,16 @@
 // times.
 #pragma once
 
-#include "core/image/image.h"
-
-#include <immintrin.h>
+#include "tests/bench/avx512.h"
+#include "tests/bench/padded.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <vector>
+#include <cstddef>
+#include <cstdlib>
 
 namespace quell::bench {
-
-// Planes of one size with a border of zeros that taps may fall into.
-class Padded {
- public:
-  static constexpr int kBorder = 64;
-  Padded(int width, int height, int planes) : height_(height), pitch_(pitch_for(width + 2 * kBorder)) {
-    for (int i = 0; i < planes; ++i)
-      planes_.emplace_back(std::size_t(pitch_) * std::size_t(height + 2 * kBorder) + 64, 0.0f);
-  }
-  std::ptrdiff_t pitch() const { return pitch_; }
-  float* row(int plane, int y) { return planes_[std::size_t(plane)].data() + (y + kBorder) * pitch_ + kBorder; }
-  const float* row(int plane, int y) const { return const_cast<Padded*>(this)->row(plane, y); }
-  void take(int first, const quell_image& image) {
-    for (int c = 0; c < image.channels; ++c)
-      for (int y = 0; y < height_; ++y) std::copy_n(image.plane[c] + y * image.pitch, image.width, row(first + c, y));
-  }
-
- private:
-  int height_;
-  std::ptrdiff_t pitch_;
-  std::vector<std::vector<float>> planes_;
-};
 
 struct LevelRule {
   float sigma_luminance = 4, sigma_depth = 1, epsilon = 1e-4f, power = 128;
@@ -50,7 +27,6 @@ struct LevelRule {
 
 class FusedLevel {
  public:
-  using V = __m512;
   enum { kR, kG, kB, kVariance, kSignal };                    // planes of what is filtered
   enum { kNx, kNy, kNz, kDepth, kSlopeX, kSlopeY, kGuides };  // planes of the guides
 
@@ -92,19 +68,6 @@ class FusedLevel {
     std::ptrdiff_t pitch;
     std::array<Tap, 12> tap;  // the other twelve are their mirror images
   };
-
-  static V all(float f) { return _mm512_set1_ps(f); }
-  static V load(const float* p) { return _mm512_loadu_ps(p); }
-  static V fma(V a, V b, V c) { return _mm512_fmadd_ps(a, b, c); }
-  static V luminance(V r, V g, V b) { return fma(r, all(.2126f), fma(g, all(.7152f), _mm512_mul_ps(b, all(.0722f)))); }
-  // Relative error 3e-6.
-  static V exp2(V x) {
-    const V f = _mm512_reduce_ps(x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);  // x - floor(x)
-    V p = fma(f, all(0.013534167f), all(0.052011464f));
-    p = fma(p, f, all(0.24144275f));
-    p = fma(p, f, all(0.69300383f));
-    return _mm512_scalef_ps(fma(p, f, all(1.0000026f)), x);  // times 2^floor(x)
-  }
 
   Row row_at(const Padded& in, const Padded& guides, Padded& out, int step, int y) const {
     constexpr float kernel[] = {6 / 16.f, 4 / 16.f, 1 / 16.f};
@@ -153,7 +116,7 @@ class FusedLevel {
 
   template <bool kChecked>
   void pixels(const Row& row, int x, int y) const {
-    constexpr float kLog2E = 1.44269504f, centre = 36 / 256.f;
+    constexpr float centre = 36 / 256.f;
     const float *ir = row.in[kR] + x, *ig = row.in[kG] + x, *ib = row.in[kB] + x, *iv = row.in[kVariance] + x;
     const float *inx = row.guide[kNx] + x, *iny = row.guide[kNy] + x, *inz = row.guide[kNz] + x,
                 *iz = row.guide[kDepth] + x;

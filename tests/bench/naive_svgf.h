@@ -3,6 +3,7 @@
 // stage and in its order; the difference between the two is one of speed.
 #pragma once
 
+#include "tests/bench/naive_picture.h"
 #include "tests/bench/turns.h"
 
 #include <quell/types.h>
@@ -10,40 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
 namespace quell::bench {
-
-struct Rgb {
-  float r = 0, g = 0, b = 0;
-};
-inline Rgb operator+(Rgb a, Rgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
-inline Rgb operator-(Rgb a, Rgb b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
-inline Rgb operator*(Rgb a, Rgb b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
-inline Rgb operator/(Rgb a, Rgb b) { return {a.r / b.r, a.g / b.g, a.b / b.b}; }
-inline Rgb operator*(float k, Rgb a) { return {k * a.r, k * a.g, k * a.b}; }
-inline float dot(Rgb a, Rgb b) { return a.r * b.r + a.g * b.g + a.b * b.b; }
-inline float luminance(Rgb c) { return dot(c, {0.2126f, 0.7152f, 0.0722f}); }
-inline bool is_zero(Rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
-
-struct Pair {
-  float x = 0, y = 0;
-};
-
-template <class T>
-class Picture {
- public:
-  Picture() = default;
-  Picture(int width, int height) : width_(width), height_(height), pixels_(std::size_t(width) * std::size_t(height)) {}
-  T& operator()(int x, int y) { return pixels_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]; }
-  const T& operator()(int x, int y) const { return pixels_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]; }
-  bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
-  bool empty() const { return pixels_.empty(); }
-
- private:
-  int width_ = 0, height_ = 0;
-  std::vector<T> pixels_;
-};
 
 struct NaiveFrame {
   Picture<Rgb> color, albedo, normal, emission;

@@ -124,17 +124,6 @@ void against_the_floor([[maybe_unused]] int rounds, [[maybe_unused]] int threads
 #endif
 }
 
-template <class T, class Get>
-Picture<T> picture(const quell_image& image, Get get) {
-  Picture<T> out(image.width, image.height);
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) out(x, y) = get([&](int c) { return image.plane[c][y * image.pitch + x]; });
-  return out;
-}
-Picture<Rgb> colors(const quell_image& image) {
-  return picture<Rgb>(image, [](auto at) { return Rgb{at(0), at(1), at(2)}; });
-}
-
 NaiveFrame frame_of(const HostGraph& graph) {
   const auto inputs = graph.inputs();
   const auto input = [&](const char* name) {
