@@ -83,7 +83,7 @@ HWY_INLINE void each_pair(const quell_run& run, float* exponent, Weight weight) 
 }
 
 // True in lanes where a vector that is zero for misses is zero.
-HWY_INLINE M all_zero(V x, V y, V z) { return hn::Or(hn::Or(hn::Abs(x), hn::Abs(y)), hn::Abs(z)) == zero(); }
+HWY_INLINE M all_zero(V x, V y, V z) { return hn::Abs(hn::Or3(x, y, z)) == zero(); }
 
 // 1 / x to a few units in the last place, by a Newton step from the machine's estimate: x positive, at least 1e-37.
 HWY_INLINE V reciprocal(V x) {
