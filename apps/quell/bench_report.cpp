@@ -24,12 +24,12 @@ std::string timing_text(const Timing& m) {
   for (const auto& n : m.nodes) sum += n.ms.median;
   std::string out = fmt::format("{}: {}x{}, {} input, {} frames after {} to warm up, {} threads, {}\n", m.graph,
                                 m.width, m.height, m.input, m.frames, m.warmup, m.threads, m.simd);
-  out += fmt::format("{:<28} {:<20} {:>9} {:>9} {:>7} {:>7} {:>8}\n", "node", "type", "ms/frame", "minimum", "share",
-                     "GB/s", "Mpix/s");
+  out += fmt::format("{:<28} {:<20} {:>9} {:>9} {:>7} {:>7} {:>8} {:>8}\n", "node", "type", "ms/frame", "minimum",
+                     "share", "GB/s", "Mpix/s", "Mtap/s");
   for (const auto& n : m.nodes)
-    out += fmt::format("{:<28} {:<20} {:>9.2f} {:>9.2f} {:>6.1f}% {:>7.2f} {:>8.1f}\n", n.name, n.type, n.ms.median,
-                       n.ms.minimum, sum > 0 ? 100 * n.ms.median / sum : 0, n.gigabytes_per_second(),
-                       n.megapixels_per_second());
+    out += fmt::format("{:<28} {:<20} {:>9.2f} {:>9.2f} {:>6.1f}% {:>7.2f} {:>8.1f} {:>8}\n", n.name, n.type,
+                       n.ms.median, n.ms.minimum, sum > 0 ? 100 * n.ms.median / sum : 0, n.gigabytes_per_second(),
+                       n.megapixels_per_second(), n.taps ? fmt::format("{:.0f}", n.megataps_per_second()) : "-");
   const double megapixels = double(m.width) * double(m.height) * 1e-6;
   out += fmt::format("{:<28} {:<20} {:>9.2f} {:>9.2f} {:>7} {:>7} {:>8.1f}\n", "whole graph", "", m.ms.median,
                      m.ms.minimum, "", "", m.ms.median > 0 ? 1e3 * megapixels / m.ms.median : 0);

@@ -62,10 +62,14 @@ Timing measure(const Graph& graph, FrameSource& source, RunOptions options, int 
 
   std::vector<double> wall, cpu;
   std::vector<std::vector<double>> nodes(graph.nodes.size());
+  TapCounter taps(graph.nodes.size());
+  taps.on = warmup == 1;
+  options.taps = &taps;
   int frame = 0;
   options.overlap = false;
   options.frame_times = [&](const FrameTimes& t) {
-    if (frame++ < warmup) return;
+    taps.on = ++frame == warmup - 1;
+    if (frame <= warmup) return;
     wall.push_back(1e3 * t.wall), cpu.push_back(1e3 * t.cpu);
     for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n].push_back(1e3 * t.nodes[n]);
   };
@@ -85,7 +89,7 @@ Timing measure(const Graph& graph, FrameSource& source, RunOptions options, int 
     const auto& shape = plan.values()[plan.value_of({int(n), plan.nodes()[n].tiled})].shape;
     m.width = std::max(m.width, shape.width), m.height = std::max(m.height, shape.height);
     m.nodes.push_back({node.name, std::string(node.type().name()), spread_of(nodes[n]), traffic(plan, n),
-                       std::size_t(shape.width) * std::size_t(shape.height)});
+                       std::size_t(shape.width) * std::size_t(shape.height), taps.taps(n)});
   }
   return m;
 }

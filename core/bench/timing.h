@@ -7,6 +7,7 @@
 #include "core/sequence/frame_source.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,9 +25,11 @@ struct NodeTiming {
   Spread ms;              // wall
   std::size_t bytes = 0;  // see traffic()
   std::size_t pixels = 0;
+  std::uint64_t taps = 0;  // of all pixels of one frame, by TapCounter; 0: not heard
 
   double gigabytes_per_second() const { return ms.median > 0 ? double(bytes) / ms.median * 1e-6 : 0; }
   double megapixels_per_second() const { return ms.median > 0 ? double(pixels) / ms.median * 1e-3 : 0; }
+  double megataps_per_second() const { return ms.median > 0 ? double(taps) / ms.median * 1e-3 : 0; }
 };
 
 struct Timing {
@@ -49,7 +52,7 @@ struct Timing {
 std::size_t traffic(const Plan&, std::size_t node);
 
 // Runs all frames of the source, reading apart from filtering, and throws the images away. The first `warmup` frames
-// do not count. Throws Error.
+// do not count; the taps are counted in the last of these, where there are any. Throws Error.
 Timing measure(const Graph&, FrameSource&, RunOptions, int warmup);
 
 // As JSON, and back. The text comes from the file `path`; throws Error(Exit::input) when it is no measurement.

@@ -48,8 +48,10 @@ std::string timing_json(const Timing& m) {
                      {"ms", json_of(n.ms)},
                      {"bytes", n.bytes},
                      {"pixels", n.pixels},
+                     {"taps", n.taps},
                      {"gigabytes_per_second", n.gigabytes_per_second()},
-                     {"megapixels_per_second", n.megapixels_per_second()}});
+                     {"megapixels_per_second", n.megapixels_per_second()},
+                     {"megataps_per_second", n.megataps_per_second()}});
   return j.dump(2) + "\n";
 }
 
@@ -70,7 +72,8 @@ Timing parse_timing(const std::string& path, const std::string& text) {
     m.image_bytes = j.at("image_bytes").get<std::size_t>(), m.peak_bytes = j.at("peak_bytes").get<std::size_t>();
     for (const auto& n : j.at("nodes"))
       m.nodes.push_back({n.at("name").get<std::string>(), n.at("type").get<std::string>(), spread_from(n.at("ms")),
-                         n.at("bytes").get<std::size_t>(), n.at("pixels").get<std::size_t>()});
+                         n.at("bytes").get<std::size_t>(), n.at("pixels").get<std::size_t>(),
+                         n.value("taps", std::uint64_t{0})});
     return m;
   } catch (const nlohmann::json::exception& e) {
     throw Error(Exit::input, fmt::format("{}: not a measurement that quell bench --json wrote: {}", path, e.what()));

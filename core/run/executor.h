@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/graph/graph.h"
+#include "core/run/tap_counter.h"
 #include "core/run/trace.h"
 #include "core/sequence/frame_source.h"
 
@@ -46,6 +47,7 @@ struct RunOptions {
   std::function<void(const Progress&)> progress;
   std::function<void(const FrameTimes&)> frame_times;
   Trace* trace = nullptr;
+  TapCounter* taps = nullptr;  // with room for each node
 };
 
 struct NodeTime {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <utility>
 
 namespace quell {
 
@@ -31,6 +32,7 @@ Session::Session(const Graph& graph, std::vector<quell_shape> inputs, Workers& w
       workers_(&workers),
       wanted_rows_(options.band_rows),
       trace_(options.trace),
+      taps_(options.taps),
       bound_(graph.nodes.size()) {
   buffers_.forget(ordinal_);
 }
@@ -62,6 +64,7 @@ void Session::bind(std::size_t n) {
   const std::size_t ports = node.in.size();
   b.images.resize(ports);
   b.weights.resize(ports);
+  bool listen = taps_ && taps_->on;
   for (std::size_t p = 0; p < ports; ++p) {
     const bool weight = node.type().inputs()[p].type == QUELL_WEIGHT;
     for (const auto& wire : node.in[p]) {
@@ -71,8 +74,9 @@ void Session::bind(std::size_t n) {
       }
       const auto from = std::size_t(wire.from.node);
       const auto& source = graph_->nodes[from];
-      b.weights[p].push_back(
-          {source.type().table().weigh, source.instance.data(), resources_.of(from), bound_[from].in.data()});
+      const quell_bound_weight bound{source.type().table().weigh, source.instance.data(), resources_.of(from),
+                                     bound_[from].in.data()};
+      b.weights[p].push_back(std::exchange(listen, false) ? taps_->listen(n, bound) : bound);
     }
     b.in.push_back(
         {weight ? nullptr : b.images[p].data(), weight ? b.weights[p].data() : nullptr, int(node.in[p].size())});

@@ -54,6 +54,7 @@ class Session {
   Workers* workers_;
   int wanted_rows_;
   Trace* trace_;
+  TapCounter* taps_;
   std::vector<Bound> bound_;
   std::int64_t ordinal_ = 0, age_ = 0;
 };

@@ -62,6 +62,66 @@ Timing timed(const Graph& graph, int frames, int warmup, RunOptions options = {}
   return timing;
 }
 
+// No weight at all, and a filter that asks about two taps for each pixel, row by row.
+struct Alike {
+  In<Radiance> image;
+  Out<Weight> weight;
+  void describe(Describe& d) {
+    d.summary("Weighs alike.");
+    d.in(image, "image", "Anything.");
+    d.out(weight, "weight", "1.");
+  }
+  void weigh(const quell_input*, const quell_run& run, float* exponent) const {
+    for (int t = 0; t < run.taps; ++t) std::fill_n(exponent + t * run.row, run.n, 0.0f);
+  }
+};
+struct Ask {
+  In<Radiance> image;
+  InList<Weight> weights;
+  Out<Radiance> out;
+  void describe(Describe& d) {
+    d.summary("Asks.");
+    d.in(image, "image", "What is given back.");
+    d.in(weights, "weights", "Who is asked.");
+    d.out(out, "image", "The image.").passes(image);
+  }
+  void run(const Tile& t) const {
+    const quell_tap taps[2] = {{0, 0, 0}, {0, 0, 0}};
+    float exponent[2 * QUELL_SEGMENT];
+    for (int y = t.y0; y < t.y1; ++y) {
+      for (const auto& w : t[weights]) {
+        const quell_run run{t.x0, y, t.x1 - t.x0, 2, taps, y * t[image].pitch + t.x0, QUELL_SEGMENT, 1, 1};
+        w.weigh(w.instance, w.resource, w.in, &run, exponent);
+      }
+      for (int c = 0; c < 3; ++c) std::copy(t.row(image, c, y) + t.x0, t.row(image, c, y) + t.x1, t.row(out, c, y));
+    }
+  }
+};
+
+Graph asking() {
+  static Registry registry({});
+  static const NodeTable<Alike> alike("alike");
+  static const NodeTable<Ask> ask("ask");
+  static const quell_node* const list[] = {alike.node(), ask.node()};
+  static const quell_plugin_table table{QUELL_MAGIC, QUELL_ABI_MAJOR, QUELL_ABI_MINOR, sizeof(quell_plugin_table), 2,
+                                        list,        "1.0",           "test"};
+  static const bool added = (registry.add_static(&table), true);
+  EXPECT_TRUE(added);
+  const Wire color{{Source::kInput, 0}, 0, {}}, weight{{0, 0}, 0, {}};
+  Graph g;
+  g.name = "asking";
+  g.inputs = {{"color", QUELL_RADIANCE, false}};
+  g.nodes.push_back({"alike", Instance(*registry.find("alike")), {{color}}, {QUELL_WEIGHT}, {}});
+  for (const std::vector<Wire>& weights : {std::vector<Wire>{}, {weight}, {weight, weight}})
+    g.nodes.push_back({"asks_" + std::to_string(weights.size()),
+                       Instance(*registry.find("ask")),
+                       {{color}, weights},
+                       {QUELL_RADIANCE},
+                       {}});
+  g.outputs = {{"image", {{3, 0}, 0, {}}, QUELL_RADIANCE, false}};
+  return g;
+}
+
 // A spread whose quartiles lie `apart`.
 Spread around(double median, double apart) { return {median, median - apart, median - apart / 2, median + apart / 2}; }
 
@@ -87,6 +147,20 @@ TEST(Timing, TrafficCountsEachImageOnce) {
   EXPECT_EQ(timing.resets, 1u);
   EXPECT_EQ(timing.width, 40);
   EXPECT_EQ(timing.height, 90);
+}
+
+// Those of one frame, however many are run and however many weights a filter lists.
+TEST(Timing, TapsAreCountedInTheLastFrameOfTheWarmUp) {
+  for (const int warmup : {0, 1, 3}) {
+    RunOptions options;
+    options.threads = 3, options.band_rows = 16;
+    const auto timing = timed(asking(), warmup + 2, warmup, options);
+    ASSERT_EQ(timing.nodes.size(), 3u);
+    const std::uint64_t taps = warmup ? 2 * 40 * 90 : 0;
+    EXPECT_EQ(timing.nodes[0].taps, 0u) << "lists no weight";
+    EXPECT_EQ(timing.nodes[1].taps, taps);
+    EXPECT_EQ(timing.nodes[2].taps, taps);
+  }
 }
 
 TEST(Timing, PartsAreNoLongerThanTheWhole) {
@@ -160,7 +234,8 @@ TEST(Timing, JsonHasTheDocumentedKeysAndComesBack) {
   for (const char* key : {"quell_bench", "graph", "fingerprint", "input", "width", "height", "frames", "warmup",
                           "threads", "simd", "resets", "ms", "cpu_ms", "read_ms", "image_bytes", "peak_bytes", "nodes"})
     EXPECT_TRUE(j.contains(key)) << key;
-  for (const char* key : {"name", "type", "ms", "bytes", "pixels", "gigabytes_per_second", "megapixels_per_second"})
+  for (const char* key : {"name", "type", "ms", "bytes", "pixels", "gigabytes_per_second", "megapixels_per_second",
+                          "taps", "megataps_per_second"})
     EXPECT_TRUE(j["nodes"][0].contains(key)) << key;
   for (const char* key : {"median", "minimum", "lower_quartile", "upper_quartile"})
     EXPECT_TRUE(j["ms"].contains(key)) << key;
