@@ -29,20 +29,6 @@ struct BenchArguments {
   int frames = 10, warmup = 4, threads = 0, band_rows = 0;
 };
 
-struct Size {
-  int width = 1920, height = 1080;
-};
-
-Size size_of(const std::string& text) {
-  Size size;
-  char end = 0;
-  if (text.empty()) return size;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &end) != 2 || size.width < 1 || size.height < 1 ||
-      size.width > 65536 || size.height > 65536)
-    throw Error(Exit::usage, fmt::format("--size {}: expected WIDTHxHEIGHT in pixels, as in 1920x1080", text));
-  return size;
-}
-
 void check(const BenchArguments& a) {
   if (a.fail_slower && a.baseline.empty())
     throw Error(Exit::usage, "--fail-slower needs --baseline FILE: slower than what?");
@@ -70,7 +56,7 @@ void write_text(const std::string& path, const std::string& text) {
 int bench(const BenchArguments& a) {
   check(a);
   const auto& cancel = watch_interrupts();
-  const Size size = size_of(a.size);
+  const FrameSize size = frame_size(a.size.empty() ? "1920x1080" : a.size);
   a.simd.apply();
   // Before anything is measured in vain.
   for (const auto& path : {a.json, a.trace})

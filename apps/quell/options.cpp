@@ -1,4 +1,4 @@
-// Words to choose from, and the choice of SIMD target.
+// Words to choose from, sizes, and the choice of SIMD target.
 #include "apps/quell/options.h"
 
 #include "core/report/error.h"
@@ -8,7 +8,9 @@
 #include <fmt/ranges.h>
 #include <hwy/targets.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdio>
 
 namespace quell {
 
@@ -35,6 +37,16 @@ CLI::Validator one_of(std::vector<std::string> words) {
         return fmt::format("'{}' is not possible\n  {}", word, possibilities("it takes", word, words));
       },
       description, "one_of");
+}
+
+FrameSize frame_size(const std::string& text) {
+  constexpr int kMost = 65536;
+  FrameSize size{};
+  char end = 0;
+  const int read = std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &end);
+  if (read != 2 || std::min(size.width, size.height) < 1 || std::max(size.width, size.height) > kMost)
+    throw Error(Exit::usage, fmt::format("--size {}: expected WIDTHxHEIGHT in pixels, as in 1920x1080", text));
+  return size;
 }
 
 void SimdOption::add_to(CLI::App& app) {

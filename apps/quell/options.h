@@ -11,6 +11,13 @@ namespace quell {
 // Accepts these words only; a message says what there is and what was probably meant.
 CLI::Validator one_of(std::vector<std::string> words);
 
+// --size: of frames, pixels.
+struct FrameSize {
+  int width, height;
+};
+// From "1920x1080". Throws Error(Exit::usage).
+FrameSize frame_size(const std::string& text);
+
 // --simd: which of the machine's instruction sets the kernels use. Highway keeps its choice in one shared library, so
 // what the program pins holds in every plugin.
 struct SimdOption {

@@ -1,5 +1,6 @@
 // quell plan: order, reach, buffers and memory of a graph at a size.
 #include "apps/quell/command.h"
+#include "apps/quell/options.h"
 
 #include "core/run/plan.h"
 
@@ -7,8 +8,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <cstdio>
 
 namespace quell {
 
@@ -23,15 +22,6 @@ struct PlanArguments {
   int objects = 16;
   bool json = false;
 };
-
-quell_shape size_of(const PlanArguments& a) {
-  int width = 0, height = 0;
-  char end = 0;
-  if (std::sscanf(a.size.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width < 1 || height < 1 || width > 65536 ||
-      height > 65536)
-    throw Error(Exit::usage, fmt::format("--size {}: expected WIDTHxHEIGHT in pixels, as in 1920x1080", a.size));
-  return {width, height, 1};
-}
 
 ordered_json json_of(const Graph& graph, const Plan& plan) {
   ordered_json j = {{"quell_plan", 1}, {"graph", graph.name}, {"fingerprint", fingerprint(graph)}};
@@ -53,7 +43,8 @@ ordered_json json_of(const Graph& graph, const Plan& plan) {
          {"weight", node.type().is_weight()},
          {"reach", {{"rows", planned.max_row_reach}, {"anywhere", planned.anywhere}, {"step", planned.step}}},
          {"reads", reads},
-         {"writes", writes}});
+         {"writes", writes},
+         {"bytes", plan.bytes_of(n)}});
   }
   auto& buffers = j["buffers"] = ordered_json::array();
   for (std::size_t i = 0; i < plan.values().size(); ++i) {
@@ -82,7 +73,7 @@ ordered_json json_of(const Graph& graph, const Plan& plan) {
 }
 
 int plan(const PlanArguments& a) {
-  const auto [width, height, unused] = size_of(a);
+  const auto [width, height] = frame_size(a.size);
   Commander commander(a.plugins);
   const auto graph = commander.load(a.graph, nullptr);
   const int code = commander.report();

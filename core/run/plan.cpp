@@ -275,6 +275,14 @@ void Plan::memory() {
   for (std::size_t i = 0; i < intervals.size(); ++i) in_arena[i]->offset = intervals[i].offset;
 }
 
+std::size_t Plan::bytes_of(std::size_t node) const {
+  std::size_t floats = 0;
+  for (std::size_t o = 0; o < graph_->nodes[node].type().outputs().size(); ++o)
+    if (const auto& v = values_[first_value_[node] + o]; v.exists)
+      floats += v.floats * std::size_t(std::max(v.slots, 1));
+  return floats * sizeof(float);
+}
+
 std::size_t Plan::bytes_without_reuse() const {
   std::size_t floats = ring_floats_;
   for (const auto& v : values_)
@@ -296,13 +304,15 @@ int Plan::band_rows(std::size_t node, int threads, int wanted) const {
 
 std::string Plan::describe() const {
   const auto& g = *graph_;
-  std::string out = fmt::format("{} nodes in order\n", g.nodes.size());
+  constexpr double kMiB = 1024.0 * 1024.0;
+  std::string out = fmt::format("{} nodes in order, and the MiB of the images that they write\n", g.nodes.size());
   for (std::size_t n = 0; n < g.nodes.size(); ++n) {
     const auto& p = nodes_[n];
     const bool weight = g.nodes[n].type().is_weight();
     std::string reach = p.anywhere ? "anywhere" : p.max_row_reach ? fmt::format("halo {}", p.max_row_reach) : "pixel";
     if (p.step > 1) reach += fmt::format(", step {}", p.step);
-    out += fmt::format("{:4}  {:28} {:20} {:22}", n, g.nodes[n].name, g.nodes[n].type().name(), reach);
+    out += fmt::format("{:4}  {:28} {:20} {:22} {:>9}", n, g.nodes[n].name, g.nodes[n].type().name(), reach,
+                       weight ? "-" : fmt::format("{:.1f}", double(bytes_of(n)) / kMiB));
     for (std::size_t o = 0; !weight && o < g.nodes[n].type().outputs().size(); ++o) {
       const auto& v = values_[first_value_[n] + o];
       if (!v.exists) continue;
@@ -313,17 +323,17 @@ std::string Plan::describe() const {
     }
     out += '\n';
   }
-  const double mib = 1024.0 * 1024.0;
   out += "inputs\n";
   for (std::size_t i = 0; i < g.inputs.size(); ++i) {
     const auto& v = values_[i];
-    out += fmt::format("      {:28} {:20} {}x{}x{} (ring of {})\n", v.name, type_name(v.type), v.shape.width,
-                       v.shape.height, v.shape.channels, v.slots);
+    out += fmt::format("      {:28} {:20} {:22} {:>9.1f} {}x{}x{} (ring of {})\n", v.name, type_name(v.type), "",
+                       double(v.floats * std::size_t(v.slots) * sizeof(float)) / kMiB, v.shape.width, v.shape.height,
+                       v.shape.channels, v.slots);
   }
   out += fmt::format(
       "memory: {:.1f} MiB: {:.1f} arena, {:.1f} rings of inputs, outputs and history ({:.1f} without reuse)\n",
-      double(bytes()) / mib, double(arena_floats_ * sizeof(float)) / mib, double(ring_floats_ * sizeof(float)) / mib,
-      double(bytes_without_reuse()) / mib);
+      double(bytes()) / kMiB, double(arena_floats_ * sizeof(float)) / kMiB, double(ring_floats_ * sizeof(float)) / kMiB,
+      double(bytes_without_reuse()) / kMiB);
   return out;
 }
 

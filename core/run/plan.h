@@ -52,6 +52,9 @@ class Plan {
 
   std::size_t arena_floats() const { return arena_floats_; }
   std::size_t ring_floats() const { return ring_floats_; }
+  // Of the images that a node writes, the frames that a ring keeps of each included. What lives in the arena shares its
+  // memory with others.
+  std::size_t bytes_of(std::size_t node) const;
   std::size_t bytes() const { return (arena_floats_ + ring_floats_) * sizeof(float); }
   // What it would take without reuse of memory within a frame.
   std::size_t bytes_without_reuse() const;

@@ -226,6 +226,10 @@ TEST_F(GraphFiles, PlanSpeaksJson) {
   EXPECT_EQ(buffers.at("level0.atrous.image")["delay"], 1);
   EXPECT_TRUE(buffers.at("level0.atrous.image").contains("ring"));
   EXPECT_TRUE(buffers.at("slope.slope").contains("arena"));
+  const auto ring = buffers.at("level0.atrous.image"), alone = buffers.at("level0.atrous.variance");
+  EXPECT_EQ(nodes.at("level0.atrous")["bytes"],
+            2 * ring["slot_bytes"].get<std::size_t>() + alone["slot_bytes"].get<std::size_t>());
+  EXPECT_EQ(nodes.at("by_normal")["bytes"], 0);
   EXPECT_EQ(j["bytes"]["all"], j["bytes"]["arena"].get<std::size_t>() + j["bytes"]["rings"].get<std::size_t>());
   EXPECT_GE(j["bytes"]["without_reuse"], j["bytes"]["all"]);
 }
