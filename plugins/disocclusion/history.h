@@ -47,6 +47,12 @@ HWY_INLINE void with_taps(const Support& s, const TapsRow& row, Use&& use) {
   });
 }
 
+// Lanes whose 4x4 is valid throughout.
+HWY_INLINE M whole_footprints(const Support& s, const TapsRow& row, int x) {
+  const I mask = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(row.mask + x));
+  return hn::And(s.at.inside, hn::RebindMask(d, hn::TestBit(mask, hn::Set(di, std::int32_t(kTapsWhole)))));
+}
+
 // The valid pixels around the positions of a vector, all alike (Schied et al. 2017, section 4.1).
 class Neighbourhood {
  public:
