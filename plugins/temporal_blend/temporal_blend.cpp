@@ -9,6 +9,7 @@ struct TemporalBlend {
   quell::In<quell::Any> current;
   quell::In<quell::Any> history;
   quell::In<quell::Count> count;
+  quell::In<quell::Scalar> factor;
   quell::Out<quell::Any> blended;
   float alpha = 0.2f;
   bool warm_up = true;
@@ -20,6 +21,7 @@ struct TemporalBlend {
     d.in(current, "current", "This frame.");
     d.in(history, "history", "Reprojected history; not looked at where count ≤ 1.");
     d.in(count, "count", "Frames accumulated, this one included (history_length).");
+    d.in(factor, "factor", "What alpha is multiplied by, pixel by pixel, 0 to 1: anti_flicker's.").optional();
     d.out(blended, "image", "The average so far.").passes(current);
     d.param(alpha, "alpha", "Weight of this frame once warmed up.").range(0, 1);
     d.param(warm_up, "warm_up",
@@ -30,7 +32,8 @@ struct TemporalBlend {
     for (int c = 0; c < tile[current].channels; ++c)
       for (int y = tile.y0; y < tile.y1; ++y)
         quell::blend_row({alpha, warm_up}, tile.x0, tile.x1, tile.row(current, c, y), tile.row(history, c, y),
-                         tile.row(count, 0, y), tile.row(blended, c, y));
+                         tile.row(count, 0, y), tile.has(factor) ? tile.row(factor, 0, y) : nullptr,
+                         tile.row(blended, c, y));
   }
 };
 

@@ -8,8 +8,8 @@ struct BlendRule {
   bool warm_up;
 };
 
-// Pixels [x0, x1) of one channel; rows at pixel x = 0.
+// Pixels [x0, x1) of one channel; rows at pixel x = 0. `factor` on alpha may be nullptr.
 void blend_row(const BlendRule&, int x0, int x1, const float* current, const float* history, const float* count,
-               float* out);
+               const float* factor, float* out);
 
 }  // namespace quell

@@ -42,6 +42,30 @@ TEST(TemporalBlend, FollowsItsFormula) {
   });
 }
 
+TEST(TemporalBlend, TakesAFactorOnAlpha) {
+  for_each_target([&] {
+    const auto current = noise_image(17, 3, 3, 1, 0, 10), history = noise_image(17, 3, 3, 2, 0, 10);
+    const auto count = noise_image(17, 3, 1, 3, 0, 12), factor = noise_image(17, 3, 1, 4);
+    for (const bool warm_up : {true, false}) {
+      const auto out = Node("temporal_blend")
+                           .set("warm_up", warm_up)
+                           .in("current", current)
+                           .in("history", history)
+                           .in("count", count)
+                           .in("factor", factor)
+                           .run("image");
+      for (int c = 0; c < 3; ++c)
+        for (int y = 0; y < 3; ++y)
+          for (int x = 0; x < 17; ++x) {
+            const double n = count.at(0, x, y), now = current.at(c, x, y), then = history.at(c, x, y);
+            const double alpha = double(0.2f) * factor.at(0, x, y);
+            const double a = n <= 1 ? 1 : warm_up ? std::max(alpha, 1 / n) : alpha;
+            EXPECT_NEAR(out.at(c, x, y), a * now + (1 - a) * then, 2e-6);
+          }
+    }
+  });
+}
+
 TEST(TemporalBlend, GivesTheCurrentFrameToTheBitWhereItMust) {
   for_each_target([&] {
     const auto current = noise_image(17, 3, 3, 1), history = noise_image(17, 3, 3, 2, 0, 1e6f);
