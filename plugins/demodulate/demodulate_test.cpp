@@ -33,11 +33,13 @@ Image albedos(int width, int height) {
 double divisor(const std::string& mode, double floor, const Image& albedo, int c, int x, int y) {
   const double a = albedo.at(c, x, y);
   if (mode == "clip") return std::min(std::max(a, floor), 1.0);
+  if (mode == "asymmetric") return std::max(a, double(1e-3f));
   const double brightest = std::max({albedo.at(0, x, y), albedo.at(1, x, y), albedo.at(2, x, y)});
   return brightest < 1e-3f || brightest > 1 ? 1.0 : std::max(a, double(1e-3f));
 }
 
 class Demodulation : public ::testing::TestWithParam<const char*> {};
+class Inverse : public Demodulation {};
 
 TEST_P(Demodulation, DividesByTheClippedAlbedo) {
   for_each_target([&] {
@@ -57,7 +59,7 @@ TEST_P(Demodulation, DividesByTheClippedAlbedo) {
   });
 }
 
-TEST_P(Demodulation, ModulateIsTheInverse) {
+TEST_P(Inverse, IsModulate) {
   for_each_target([&] {
     const auto color = noise_image(17, 3, 3, 2, 0.0f, 20.0f), albedo = albedos(17, 3), aside = noise_image(17, 3, 3, 3);
     const auto light = Node("demodulate").set("mode", GetParam()).in("image", color).in("albedo", albedo).run("image");
@@ -78,7 +80,7 @@ TEST_P(Demodulation, ModulateIsTheInverse) {
   });
 }
 
-TEST_P(Demodulation, LightOnBlackSurvives) {
+TEST_P(Inverse, LetsLightOnBlackSurvive) {
   for_each_target([&] {
     const auto color = constant_image(3, 1, 3, 1.0f), albedo = constant_image(3, 1, 3, 0.0f);
     const auto light = Node("demodulate").set("mode", GetParam()).in("image", color).in("albedo", albedo).run("image");
@@ -87,6 +89,25 @@ TEST_P(Demodulation, LightOnBlackSurvives) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(modes, Demodulation, ::testing::Values("clip", "classic"));
+INSTANTIATE_TEST_SUITE_P(modes, Demodulation, ::testing::Values("clip", "classic", "asymmetric"));
+INSTANTIATE_TEST_SUITE_P(modes, Inverse, ::testing::Values("clip", "classic"));
+
+TEST(DemodulationProperty, AsymmetricMultipliesByAlbedoItself) {
+  for_each_target([&] {
+    const auto color = noise_image(17, 3, 3, 2, 0.0f, 20.0f), albedo = albedos(17, 3);
+    const auto light =
+        Node("demodulate").set("mode", "asymmetric").in("image", color).in("albedo", albedo).run("image");
+    const auto back = Node("modulate").set("mode", "asymmetric").in("image", light).in("albedo", albedo).run("image");
+    int black = 0;
+    for (int c = 0; c < 3; ++c)
+      for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 17; ++x) {
+          const double a = albedo.at(c, x, y), expected = color.at(c, x, y) * (a / std::max(a, double(1e-3f)));
+          EXPECT_NEAR(back.at(c, x, y), expected, 1e-6 * expected);
+          black += a == 0 && back.at(c, x, y) == 0;
+        }
+    EXPECT_GT(black, 5);
+  });
+}
 
 }  // namespace

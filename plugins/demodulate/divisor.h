@@ -26,6 +26,7 @@ HWY_INLINE void divisors(const demodulation::Rule& rule, const float* const* alb
     for (int c = 0; c < 3; ++c) by[c] = hn::Min(by[c], one);
     return;
   }
+  if (rule.mode == demodulation::Mode::asymmetric) return;
   const V brightest = hn::Max(hn::Max(load(albedo[0] + x), load(albedo[1] + x)), load(albedo[2] + x));
   const M plain = hn::Or(brightest<floor, brightest> one);
   for (int c = 0; c < 3; ++c) by[c] = hn::IfThenElse(plain, one, by[c]);

@@ -10,6 +10,8 @@ void multiply(const demodulation::Rule& rule, int x0, int x1, const float* const
   for (int x = x0; x < x1; x += kLanes) {
     V by[3];
     divisors(rule, albedo, x, by);
+    if (rule.mode == demodulation::Mode::asymmetric)
+      for (int c = 0; c < 3; ++c) by[c] = load(albedo[c] + x);
     for (int c = 0; c < 3; ++c) {
       const V more = emission[0] ? load(emission[c] + x) : zero();
       store(mul_add(load(image[c] + x), by[c], more), out[c] + x, x1 - x);
