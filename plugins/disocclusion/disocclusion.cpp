@@ -15,12 +15,14 @@ struct Disocclusion {
   quell::In<quell::Depth> depth, depth_before;
   quell::In<quell::Normal> normal, normal_before;
   quell::In<quell::Id> id, id_before;
+  quell::In<quell::Position> position, position_before;
   quell::Out<quell::Taps> taps;
   quell::TapMode mode = quell::TapMode::bilinear;
   bool fallback = true;
   float depth_tolerance = 10.0f;
   float depth_floor = 0.01f;
   float normal_cosine = 0.9f;
+  float plane_tolerance = 0.01f;
 
   void describe(quell::Describe& d) {
     d.summary(
@@ -28,7 +30,8 @@ struct Disocclusion {
         "wired.");
     d.source(
         "Schied et al. 2017, Spatiotemporal Variance-Guided Filtering, section 4.1. Tolerances after Falcor's SVGF "
-        "pass. GAMES202 homework 5: mode nearest, id alone, no fallback.");
+        "pass; of the plane after ReBLUR (NVIDIA Real-Time Denoisers 4). GAMES202 homework 5: mode nearest, id alone, "
+        "no fallback.");
     d.in(motion, "motion", "Pixels, previous − current. A position outside the image is disoccluded.");
     d.in(slope, "slope", "Slope of depth now; without it, 0.").optional();
     d.in(depth, "depth", "Depth now.").optional();
@@ -41,6 +44,11 @@ struct Disocclusion {
     d.in(normal_before, "normal_before", "Normal one frame earlier.").optional().anywhere();
     d.in(id, "id", "Object now.").optional();
     d.in(id_before, "id_before", "Object one frame earlier.").optional().anywhere();
+    d.in(position, "position",
+         "World-space position now, for the plane test, which also wants normal and depth. Positions are compared as "
+         "they are: a surface that moves along its normal by more than the tolerance is taken for another.")
+        .optional();
+    d.in(position_before, "position_before", "World-space position one frame earlier.").optional().anywhere();
     d.out(taps, "taps",
           "Bilinear weights of the valid ones of four taps, scaled to sum 1, all 0 where they hold less than 0.01; and "
           "the mask of valid pixels around them. All 0 where history is missing.");
@@ -56,6 +64,9 @@ struct Disocclusion {
     d.param(depth_floor, "depth_floor", "Share of the depth that counts as slope, for surfaces that face the camera.")
         .range(0, 1);
     d.param(normal_cosine, "normal_cosine", "Least cosine between normals that agree.").range(-1, 1);
+    d.param(plane_tolerance, "plane_tolerance",
+            "Positions agree within plane_tolerance·depth of the plane that the surface lies in now.")
+        .range(0, 1e6);
   }
 
   void shapes(const quell_spec& spec, quell_shape*) const {
@@ -66,11 +77,19 @@ struct Disocclusion {
     pair(normal.index, normal_before.index,
          "normal and normal_before go together: one is connected and the other is not");
     pair(id.index, id_before.index, "id and id_before go together: one is connected and the other is not");
+    pair(position.index, position_before.index,
+         "position and position_before go together: one is connected and the other is not");
+    if (spec.in_count[position.index] && !(spec.in_count[depth.index] && spec.in_count[normal.index]))
+      throw std::runtime_error(
+          "position is tested against the plane of the surface, which takes normal and depth: connect both, or leave "
+          "position unconnected");
   }
 
   void run(const quell::Tile& tile) const {
-    if (tile.missing(depth_before) || tile.missing(normal_before) || tile.missing(id_before)) return clear(tile);
-    const quell::TapRules rules{mode, fallback, depth_tolerance, depth_floor, normal_cosine};
+    if (tile.missing(depth_before) || tile.missing(normal_before) || tile.missing(id_before) ||
+        tile.missing(position_before))
+      return clear(tile);
+    const quell::TapRules rules{mode, fallback, depth_tolerance, depth_floor, normal_cosine, plane_tolerance};
     for (int y = tile.y0; y < tile.y1; ++y) {
       float* const weight[4] = {tile.row(taps, 0, y), tile.row(taps, 1, y), tile.row(taps, 2, y), tile.row(taps, 3, y)};
       quell::validate_taps(guides(tile, y), rules, y, tile.x0, tile.x1, weight, tile.bits(taps, quell::kTapsMask, y));
@@ -96,6 +115,8 @@ struct Disocclusion {
     if (tile.has(id)) g.id = tile.bits(id, 0, y), g.id_before = tile.bits(id_before, 0, 0);
     for (int c = 0; c < 3 && tile.has(normal); ++c)
       g.normal[c] = tile.row(normal, c, y), g.normal_before[c] = tile.row(normal_before, c, 0);
+    for (int c = 0; c < 3 && tile.has(position); ++c)
+      g.position[c] = tile.row(position, c, y), g.position_before[c] = tile.row(position_before, c, 0);
     return g;
   }
 };

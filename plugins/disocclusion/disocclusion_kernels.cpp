@@ -74,6 +74,20 @@ HWY_INLINE I like_normal(const TapGuides& g, const TapRules& rules, int x, const
   });
 }
 
+// Positions near the plane that the surface lies in. That of a miss, which has no normal, holds everything; the test of
+// normals sees to misses.
+template <class Square>
+HWY_INLINE I in_plane(const TapGuides& g, const TapRules& rules, int x, const Square& square) {
+  const V nx = load(g.normal[0] + x), ny = load(g.normal[1] + x), nz = load(g.normal[2] + x);
+  const V px = load(g.position[0] + x), py = load(g.position[1] + x), pz = load(g.position[2] + x);
+  const V tolerance = all(rules.plane_tolerance) * load(g.depth + x);
+  return bits_where([&](int i, int j) HWY_ATTR {
+    const V dx = square.read(g.position_before[0], i, j) - px, dy = square.read(g.position_before[1], i, j) - py,
+            dz = square.read(g.position_before[2], i, j) - pz;
+    return hn::Abs(mul_add(nx, dx, mul_add(ny, dy, nz * dz))) <= tolerance;
+  });
+}
+
 // The pixels of the 4x4 that lie in the image.
 HWY_INLINE I in_image(const Footprint& f, const TapGuides& g) {
   return bits_where([&](int i, int j) HWY_ATTR {
@@ -90,6 +104,7 @@ HWY_INLINE I valid_bits(const Footprint& f, const TapGuides& g, const TapRules& 
     if (g.id) bits = bits & same_id(g, x, square);
     if (g.depth) bits = bits & near_depth(g, rules, x, square);
     if (g.normal[0]) bits = bits & like_normal(g, rules, x, square);
+    if (g.position[0]) bits = bits & in_plane(g, rules, x, square);
   });
   const bool within =
       f.lines == 1 && f.line.x >= 1 && f.line.x + kLanes + 2 <= g.width && f.line.y >= 1 && f.line.y + 3 <= g.height;

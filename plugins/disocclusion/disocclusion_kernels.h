@@ -11,7 +11,7 @@ enum class TapMode : std::int32_t { bilinear, nearest };
 struct TapRules {
   TapMode mode;
   bool fallback;
-  float depth_tolerance, depth_floor, normal_cosine;
+  float depth_tolerance, depth_floor, normal_cosine, plane_tolerance;
 };
 
 // Rows of this frame at pixel x = 0, planes of the previous one at pixel (0, 0). nullptr: not connected.
@@ -20,6 +20,7 @@ struct TapGuides {
   const float* slope[2];
   const float *depth, *depth_before;
   const float *normal[3], *normal_before[3];
+  const float *position[3], *position_before[3];  // only with normal and depth
   const std::uint32_t *id, *id_before;
   int width, height;
   std::ptrdiff_t pitch;

@@ -167,6 +167,60 @@ TEST(Disocclusion, TestsDepthWithinSlopeAndFloor) {
   });
 }
 
+TEST(Disocclusion, TestsPositionsAgainstThePlane) {
+  for_each_target([&] {
+    const int width = 61, height = 13;
+    const auto motion = constant_image(width, height, 2, 0), slope = constant_image(width, height, 2, 0);
+    const auto depth = constant_image(width, height, 1, 5);
+    const auto normal = normal_image(width, height, 5, true);
+    // Normals then are those of now, but for every seventh, which is a miss.
+    auto then = normal.copy();
+    for (int y = 0; y < height; ++y)
+      for (int x = y % 7; x < width; x += 7)
+        for (int c = 0; c < 3; ++c) then.at(c, x, y) = 0;
+    const auto position = noise_image(width, height, 3, 7, -4, 4),
+               position_before = noise_image(width, height, 3, 8, -4, 4);
+    const float tolerance = 0.25f;
+    const auto taps = Node("disocclusion")
+                          .in("motion", motion)
+                          .in("slope", slope)
+                          .in("depth", depth)
+                          .in("depth_before", depth)
+                          .in("normal", normal)
+                          .in("normal_before", then)
+                          .in("position", position)
+                          .in("position_before", position_before)
+                          .set("plane_tolerance", tolerance)
+                          .set("fallback", false)
+                          .run("taps");
+    int near = 0, away = 0;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        double distance = 0;
+        for (int c = 0; c < 3; ++c)
+          distance += double(normal.at(c, x, y)) * (double(position_before.at(c, x, y)) - position.at(c, x, y));
+        const bool alike = sky(normal, x, y) == sky(then, x, y);
+        const bool valid = alike && std::abs(distance) <= double(tolerance) * 5;
+        EXPECT_EQ(taps.at(0, x, y), valid ? 1 : 0) << x << ',' << y << ": " << distance;
+        near += valid, away += alike && !valid;
+      }
+    EXPECT_GT(near, 50);
+    EXPECT_GT(away, 50);
+  });
+}
+
+TEST(Disocclusion, OfPositionsWantsThePlaneToo) {
+  const auto motion = constant_image(3, 3, 2, 0), position = constant_image(3, 3, 3, 1);
+  try {
+    Node("disocclusion").in("motion", motion).in("position", position).in("position_before", position).run("taps");
+    FAIL() << "no error";
+  } catch (const std::exception& e) {
+    EXPECT_STREQ(e.what(),
+                 "position is tested against the plane of the surface, which takes normal and depth: connect both, or "
+                 "leave position unconnected");
+  }
+}
+
 TEST(Disocclusion, WithoutHistoryOrInsideIsNothing) {
   for_each_target([&] {
     const Frame frame(9, 5, 0);
