@@ -1,6 +1,8 @@
 // First and second moment of a pixel's luminance: what temporal variance is accumulated from.
 #include <quell/node.h>
 
+#include "luminance_moments/luminance_moments_kernels.h"
+
 namespace {
 
 struct LuminanceMoments {
@@ -16,16 +18,8 @@ struct LuminanceMoments {
 
   void run(const quell::Tile& tile) const {
     for (int y = tile.y0; y < tile.y1; ++y) {
-      const float* r = tile.row(image, 0, y);
-      const float* g = tile.row(image, 1, y);
-      const float* b = tile.row(image, 2, y);
-      float* first = tile.row(moments, 0, y);
-      float* second = tile.row(moments, 1, y);
-      for (int x = tile.x0; x < tile.x1; ++x) {
-        const float l = 0.2126f * r[x] + 0.7152f * g[x] + 0.0722f * b[x];
-        first[x] = l;
-        second[x] = l * l;
-      }
+      const float* const rgb[3] = {tile.row(image, 0, y), tile.row(image, 1, y), tile.row(image, 2, y)};
+      quell::moments_row(tile.x0, tile.x1, rgb, tile.row(moments, 0, y), tile.row(moments, 1, y));
     }
   }
 };
