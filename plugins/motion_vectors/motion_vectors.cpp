@@ -1,20 +1,15 @@
 // Computes where each pixel was in the previous frame, from the matrices of cameras and objects.
 #include <quell/node.h>
 
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "motion_vectors/matrices.h"
+#include "motion_vectors/motion_vectors_kernels.h"
 
 namespace {
-
-// Motion where there is none to be known. It leads out of any image, so the pixel counts as disoccluded.
-constexpr float kNoMotion = 1e6f;
-// Nearer to the camera plane than this (or behind it), nothing projects.
-constexpr double kLeastW = 1e-6;
 
 constexpr int kWorldToView = 0, kWorldToScreen = 1;  // the rows of a camera table
 
@@ -33,65 +28,60 @@ class Movement {
     if (has_centre_) {
       rays_ = glm::inverse(rays);
       centre_ = -(rays_ * glm::dvec3(screen[3][0], screen[3][1], screen[3][3]));
-      turn_ = quell::directions(before_) * rays_;
     }
-    if (now_) steps_.resize(std::size_t(std::min(now_->height, then_->height)));
+    objects_.resize(now_ ? std::size_t(std::min(now_->height, then_->height)) : 1);
+    known_.resize(objects_.size());
+    if (!now_) objects_[0] = still_ ? at_rest() : moved(before_);
   }
 
   bool has_centre() const { return has_centre_; }
 
-  // The world position that pixel (x, y) shows at this depth.
-  glm::dvec3 position(int x, int y, double depth) const {
-    const auto ray = rays_ * glm::dvec3(x + 0.5, y + 0.5, 1);
-    const double along = view_[0][2] * ray.x + view_[1][2] * ray.y + view_[2][2] * ray.z;
-    return centre_ + ray * (depth / along);
+  // Makes sure that the objects of these pixels are known.
+  void meet(const std::uint32_t* id, int x0, int x1) {
+    for (int x = x0; x < x1; ++x)
+      if (id[x] < known_.size() && !known_[id[x]]) {
+        known_[id[x]] = true;
+        objects_[id[x]] = journey_of(int(id[x]));
+      }
   }
 
-  // Homogeneous pixels, one frame earlier, of a point on an object; nothing where the object has no past.
-  std::optional<glm::dvec3> point(const glm::dvec3& p, std::uint32_t id) {
-    glm::dvec4 then(p, 1);
-    if (now_) {
-      if (id >= steps_.size()) return {};
-      const auto& step = step_of(id);
-      if (step.moves) then = step.matrix * then;
+  void describe(quell::MotionRow& row) const {
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) row.rays[r][c] = rays_[c][r];
+      row.centre[r] = centre_[r];
+      row.view_z[r] = view_[r][2];
     }
-    const auto s = before_ * then;
-    return glm::dvec3(s.x, s.y, s.w);
+    row.objects = objects_.data();
+    row.count = std::uint32_t(objects_.size());
+    row.each_its_own = now_ != nullptr;
+    // What lies infinitely far away: the camera's rotation alone moves it.
+    if (still_) row.background = at_rest();
+    if (!still_ && has_centre_) row.background = moved(glm::dmat4(quell::directions(before_) * rays_), 2);
   }
-
-  // The same for what lies infinitely far behind pixel (x, y): the camera's rotation alone moves it.
-  glm::dvec3 background(int x, int y) const { return turn_ * glm::dvec3(x + 0.5, y + 0.5, 1); }
-
-  // Neither camera nor object moves, so the motion is 0 to the bit.
-  bool at_rest(std::uint32_t id) {
-    if (!still_) return false;
-    return !now_ || (id < steps_.size() && !step_of(id).moves);
-  }
-  bool still() const { return still_; }
 
  private:
-  // From the world now to the world then, moving with one object.
-  struct Step {
-    bool known = false, moves = false;
-    glm::dmat4 matrix;
-  };
+  static quell::Journey at_rest() { return {quell::Past::rest, {}}; }
+  // By rows 0, 1 and `last` of a matrix for column vectors.
+  static quell::Journey moved(const glm::dmat4& m, int last = 3) {
+    quell::Journey journey{quell::Past::moved, {}};
+    for (int c = 0; c < 4; ++c)
+      journey.matrix[0][c] = m[c][0], journey.matrix[1][c] = m[c][1], journey.matrix[2][c] = m[c][last];
+    return journey;
+  }
 
-  const Step& step_of(std::uint32_t id) {
-    auto& step = steps_[id];
-    if (!step.known) {
-      step.known = true;
-      step.moves = !quell::same_matrix(*now_, *then_, int(id));
-      if (step.moves) step.matrix = quell::matrix(*then_, int(id)) * glm::inverse(quell::matrix(*now_, int(id)));
-    }
-    return step;
+  // From the world now to the world then, moving with one object, and to the screen.
+  quell::Journey journey_of(int id) const {
+    if (quell::same_matrix(*now_, *then_, id)) return still_ ? at_rest() : moved(before_);
+    return moved(before_ * quell::matrix(*then_, id) * glm::inverse(quell::matrix(*now_, id)));
   }
 
   glm::dmat4 view_, before_;
   bool still_, has_centre_;
-  glm::dmat3 rays_{}, turn_{};
+  glm::dmat3 rays_{};
   glm::dvec3 centre_{};
   const quell_image *now_, *then_;
-  std::vector<Step> steps_;
+  std::vector<quell::Journey> objects_;
+  std::vector<char> known_;
 };
 
 struct MotionVectors {
@@ -138,44 +128,25 @@ struct MotionVectors {
     if (!movement.has_centre() && !tile.has(position) && !missing)
       throw std::runtime_error(
           "a camera without a centre (orthographic) cannot rebuild positions from depth: connect position");
-    for (int y = tile.y0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x) {
-        const auto m = missing ? nowhere() : at_pixel(tile, movement, x, y);
-        tile.row(motion, 0, y)[x] = m.x;
-        tile.row(motion, 1, y)[x] = m.y;
-      }
+    if (missing) return clear(tile);
+    quell::MotionRow row{};
+    movement.describe(row);
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      for (int c = 0; c < 3 && tile.has(position); ++c) row.position[c] = tile.row(position, c, y);
+      if (tile.has(depth)) row.depth = tile.row(depth, 0, y);
+      if (tile.has(id)) row.id = tile.bits(id, 0, y);
+      if (objects) movement.meet(row.id, tile.x0, tile.x1);
+      for (int c = 0; c < 2; ++c) row.motion[c] = tile.row(motion, c, y);
+      row.y = y;
+      quell::motion_row(row, tile.x0, tile.x1);
+    }
   }
 
  private:
-  static glm::vec2 nowhere() { return {kNoMotion, kNoMotion}; }
-
-  glm::vec2 at_pixel(const quell::Tile& tile, Movement& movement, int x, int y) const {
-    const std::uint32_t object = tile.has(id) ? tile.bits(id, 0, y)[x] : 0;
-    if (is_miss(tile, x, y, object)) {
-      if (movement.still()) return {0, 0};
-      return movement.has_centre() ? difference(movement.background(x, y), x, y) : nowhere();
-    }
-    if (movement.at_rest(object)) return {0, 0};
-    const auto then = movement.point(position_of(tile, movement, x, y), object);
-    return then ? difference(*then, x, y) : nowhere();
-  }
-
-  bool is_miss(const quell::Tile& tile, int x, int y, std::uint32_t object) const {
-    if (tile.has(id)) return object == quell::kNoId;
-    if (tile.has(depth)) return tile.row(depth, 0, y)[x] >= 0.5f * quell::kFar;
-    return tile.row(position, 0, y)[x] == 0 && tile.row(position, 1, y)[x] == 0 && tile.row(position, 2, y)[x] == 0;
-  }
-
-  glm::dvec3 position_of(const quell::Tile& tile, const Movement& movement, int x, int y) const {
-    if (!tile.has(position)) return movement.position(x, y, tile.row(depth, 0, y)[x]);
-    return {tile.row(position, 0, y)[x], tile.row(position, 1, y)[x], tile.row(position, 2, y)[x]};
-  }
-
-  static glm::vec2 difference(const glm::dvec3& screen, int x, int y) {
-    if (!(screen.z > kLeastW)) return nowhere();
-    const glm::dvec2 m(screen.x / screen.z - (x + 0.5), screen.y / screen.z - (y + 0.5));
-    // Written so that NaN, from a matrix without an inverse, leads out of the image too.
-    return std::abs(m.x) < kNoMotion && std::abs(m.y) < kNoMotion ? glm::vec2(m) : nowhere();
+  void clear(const quell::Tile& tile) const {
+    for (int c = 0; c < 2; ++c)
+      for (int y = tile.y0; y < tile.y1; ++y)
+        std::fill(tile.row(motion, c, y) + tile.x0, tile.row(motion, c, y) + tile.x1, quell::kNoMotion);
   }
 };
 

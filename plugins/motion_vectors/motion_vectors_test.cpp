@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/each_target.h"
 #include "tests/support/run_node.h"
 
 namespace {
@@ -19,6 +20,7 @@ using quell::Image;
 using quell::kFar;
 using quell::kNoId;
 using quell::test::constant_image;
+using quell::test::for_each_target;
 using quell::test::Node;
 using quell::test::noise_image;
 
@@ -99,78 +101,87 @@ struct Scene {
 };
 
 TEST(MotionVectors, GoesBackWithObjectAndCamera) {
-  const Scene s;
-  const auto now = table(s.now), then = table(s.then), objects = table(s.objects_now), before = table(s.objects_then);
-  s.expect(Node("motion_vectors")
-               .in("position", s.position)
-               .in("id", s.id)
-               .in("camera", now)
-               .in("camera_before", then)
-               .in("transforms", objects)
-               .in("transforms_before", before)
-               .run("motion"));
-  s.expect(Node("motion_vectors")
-               .in("depth", s.depth)
-               .in("id", s.id)
-               .in("camera", now)
-               .in("camera_before", then)
-               .in("transforms", objects)
-               .in("transforms_before", before)
-               .run("motion"));
+  for_each_target([&] {
+    const Scene s;
+    const auto now = table(s.now), then = table(s.then), objects = table(s.objects_now), before = table(s.objects_then);
+    s.expect(Node("motion_vectors")
+                 .in("position", s.position)
+                 .in("id", s.id)
+                 .in("camera", now)
+                 .in("camera_before", then)
+                 .in("transforms", objects)
+                 .in("transforms_before", before)
+                 .run("motion"));
+    s.expect(Node("motion_vectors")
+                 .in("depth", s.depth)
+                 .in("id", s.id)
+                 .in("camera", now)
+                 .in("camera_before", then)
+                 .in("transforms", objects)
+                 .in("transforms_before", before)
+                 .run("motion"));
+  });
 }
 
 TEST(MotionVectors, TellsMissesByDepthOrPositionAlone) {
-  Scene s;
-  s.objects_now = s.objects_then = {dmat4(1), dmat4(1), dmat4(1)};
-  const auto now = table(s.now), then = table(s.then);
-  s.expect(Node("motion_vectors").in("depth", s.depth).in("camera", now).in("camera_before", then).run("motion"));
-  s.expect(Node("motion_vectors").in("position", s.position).in("camera", now).in("camera_before", then).run("motion"));
+  for_each_target([&] {
+    Scene s;
+    s.objects_now = s.objects_then = {dmat4(1), dmat4(1), dmat4(1)};
+    const auto now = table(s.now), then = table(s.then);
+    s.expect(Node("motion_vectors").in("depth", s.depth).in("camera", now).in("camera_before", then).run("motion"));
+    s.expect(
+        Node("motion_vectors").in("position", s.position).in("camera", now).in("camera_before", then).run("motion"));
+  });
 }
 
 TEST(MotionVectors, AtRestIsZeroToTheBit) {
-  const Scene s;
-  const auto now = table(s.now), objects = table(s.objects_now);
-  const auto motion = Node("motion_vectors")
-                          .in("position", s.position)
-                          .in("id", s.id)
-                          .in("camera", now)
-                          .in("camera_before", now)
-                          .in("transforms", objects)
-                          .in("transforms_before", objects)
-                          .run("motion");
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) EXPECT_EQ(motion.at(0, x, y), 0);
+  for_each_target([&] {
+    const Scene s;
+    const auto now = table(s.now), objects = table(s.objects_now);
+    const auto motion = Node("motion_vectors")
+                            .in("position", s.position)
+                            .in("id", s.id)
+                            .in("camera", now)
+                            .in("camera_before", now)
+                            .in("transforms", objects)
+                            .in("transforms_before", objects)
+                            .run("motion");
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) EXPECT_EQ(motion.at(0, x, y), 0);
+  });
 }
 
 TEST(MotionVectors, LeadsOutOfTheImageWhereNothingIsKnown) {
-  Scene s;
-  const auto now = table(s.now), then = table(s.then), objects = table(s.objects_now);
-  const auto fewer = table({s.objects_then[0]});
-  const auto motion = Node("motion_vectors")
-                          .in("position", s.position)
-                          .in("id", s.id)
-                          .in("camera", now)
-                          .in("camera_before", then)
-                          .in("transforms", objects)
-                          .in("transforms_before", fewer)
-                          .run("motion");
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
-      const auto object = s.id.bits(0, y)[x];
-      EXPECT_EQ(motion.at(0, x, y) == kNoMotion, object == 1 || object == 2) << x << ',' << y;
-    }
+  for_each_target([&] {
+    Scene s;
+    const auto now = table(s.now), then = table(s.then), objects = table(s.objects_now);
+    const auto fewer = table({s.objects_then[0]});
+    const auto motion = Node("motion_vectors")
+                            .in("position", s.position)
+                            .in("id", s.id)
+                            .in("camera", now)
+                            .in("camera_before", then)
+                            .in("transforms", objects)
+                            .in("transforms_before", fewer)
+                            .run("motion");
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const auto object = s.id.bits(0, y)[x];
+        EXPECT_EQ(motion.at(0, x, y) == kNoMotion, object == 1 || object == 2) << x << ',' << y;
+      }
 
-  const auto first = Node("motion_vectors")
-                         .in("position", s.position)
-                         .in("camera", now)
-                         .in_missing("camera_before", now)
-                         .run("motion");
-  EXPECT_EQ(first.at(1, 3, 3), kNoMotion);
+    const auto first = Node("motion_vectors")
+                           .in("position", s.position)
+                           .in("camera", now)
+                           .in_missing("camera_before", now)
+                           .run("motion");
+    EXPECT_EQ(first.at(1, 3, 3), kNoMotion);
 
-  const auto turned = table(camera({0.2, 0.1, -4}, 3.1, 0.02));  // the previous camera looked the other way
-  const auto behind =
-      Node("motion_vectors").in("position", s.position).in("camera", now).in("camera_before", turned).run("motion");
-  EXPECT_EQ(behind.at(0, 16, 8), kNoMotion);
+    const auto turned = table(camera({0.2, 0.1, -4}, 3.1, 0.02));  // the previous camera looked the other way
+    const auto behind =
+        Node("motion_vectors").in("position", s.position).in("camera", now).in("camera_before", turned).run("motion");
+    EXPECT_EQ(behind.at(0, 16, 8), kNoMotion);
+  });
 }
 
 TEST(MotionVectors, SaysWhatIsMissing) {
