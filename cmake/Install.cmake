@@ -4,6 +4,8 @@ include(CMakePackageConfigHelpers)
 set(QUELL_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/quell)
 
 install(TARGETS quell RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+get_filename_component(folder ${QUELL_IMAGE_FORMATS} DIRECTORY)
+install(TARGETS quell_image_formats LIBRARY DESTINATION ${folder})
 get_property(plugins GLOBAL PROPERTY QUELL_PLUGIN_NAMES)
 if(plugins AND NOT QUELL_STATIC_PLUGINS)
   install(TARGETS ${plugins} LIBRARY DESTINATION ${QUELL_PLUGIN_DIR})

@@ -91,7 +91,6 @@ void SequenceOptions::add_to(CLI::App& app, bool required) {
 
 Commander::Commander(const PluginOptions& plugins)
     : locations_(find_locations(plugins.folders)), registry_(locations_.plugins) {
-  quiet_image_threads();
   for (const auto& folder : plugins.folders)
     if (!is_folder(folder)) throw Error(Exit::plugin, fmt::format("--plugins {}: there is no such folder", folder));
 #ifdef QUELL_STATIC_PLUGIN_LIST

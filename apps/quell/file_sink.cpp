@@ -43,7 +43,7 @@ FileSink::FileSink(const Graph& graph, const Sequence& sequence, std::span<const
                               texts[i]));
     const bool shown = preview && shows(types_[i]) && fs::path(texts[i]).extension() != ".png";
     previews_.emplace_back(shown ? fs::path(texts[i]).replace_extension(".png").string() : "");
-    check_writing(texts[i], types_[i], options_);
+    check_writing(texts[i], types_[i]);
   }
   check_files(sequence, frames);
 }

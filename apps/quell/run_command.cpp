@@ -6,11 +6,13 @@
 #include "apps/quell/progress.h"
 #include "apps/quell/run_report.h"
 
+#include "core/report/suggest.h"
 #include "core/sequence/frame_range.h"
 #include "core/sequence/temporary_file.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -39,10 +41,22 @@ struct RunArguments {
 WriteOptions write_options(const RunArguments& a, const Graph& graph) {
   WriteOptions options;
   options.half = !a.full;
-  options.compression = a.compression;
+  options.compression = *parse_exr_compression(a.compression);  // checked by its option
   options.metadata = {
       {"Software", "quell " QUELL_VERSION}, {"quell:graph", graph.name}, {"quell:fingerprint", fingerprint(graph)}};
   return options;
+}
+
+std::string compression_option(const std::string& text) {
+  if (parse_exr_compression(text)) return "";
+  const auto name = text.substr(0, text.find(':'));
+  const auto known = exr_compressions();
+  if (std::ranges::find(known, name) == known.end())
+    return fmt::format("'{}' is not possible\n  {}", name, possibilities("it takes", name, known));
+  return fmt::format(
+      "'{}' is not possible\n  zip and zips take a level from 1 to 12, dwaa and dwab one from 0 to 100000, "
+      "the others none",
+      text);
 }
 
 // The same error, and how far the run had come.
@@ -124,9 +138,11 @@ void add_run(CLI::App& app, int& exit) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   sub->add_flag("--float", a->full, "Writes 32-bit floats in place of halves.");
-  sub->add_option("--compression", a->compression, "Of EXR files; dwaa and pxr24 lose some precision.")
-      ->check(one_of({compressions().begin(), compressions().end()}))
-      ->type_name("")
+  sub->add_option("--compression", a->compression,
+                  "Of EXR files. A level may follow: zip:9 (1 to 12, time for size), dwaa:100 (0 to 100000, size for "
+                  "quality). b44, dwaa and pxr24 lose some precision.")
+      ->check(compression_option)
+      ->type_name("NAME[:LEVEL]")
       ->capture_default_str();
   sub->add_flag("--preview", a->preview, "Writes a PNG beside each image that an eye can read.");
   sub->add_option("--threads", a->threads, "Threads; 0: every core.")

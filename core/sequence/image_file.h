@@ -1,4 +1,4 @@
-// One image file, of any format that OpenImageIO reads, as named channels of planar float32.
+// One image file, OpenEXR or of any format that OpenImageIO reads, as named channels of planar float32.
 #pragma once
 
 #include <quell/abi.h>
@@ -12,10 +12,6 @@
 
 namespace quell {
 
-// The host owns all threads: tells OpenImageIO and OpenEXR to start none. To be called once, before any image is
-// opened.
-void quiet_image_threads();
-
 // Columns [x0, x1) of rows [y0, y1).
 struct Window {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
@@ -23,6 +19,9 @@ struct Window {
   bool operator==(const Window&) const = default;
 };
 Window intersection(const Window&, const Window&);
+
+class ImageReader;
+struct ImagePart;
 
 struct FileChannel {
   enum class Storage { floating, byte, word, integer, other };
@@ -35,7 +34,7 @@ struct FileChannel {
 
 // A channel to read and where its pixel (0, 0) goes.
 struct ChannelRead {
-  int channel;
+  int channel;  // of the file
   float* plane;
   bool id = false;  // as uint32: whole numbers of the file as they are, others cast; what is none becomes kNoId
 };
@@ -62,17 +61,15 @@ class ImageFile {
   bool display_encoded(int channel) const;
 
   // Reads the covered pixels of some channels; other pixels stay as they are. A channel may be read more than once.
-  // Throws Error(Exit::input).
+  // Shares the work among the threads of the caller's arena. Throws Error(Exit::input).
   void read(std::span<const ChannelRead>, std::ptrdiff_t pitch);
 
  private:
-  struct Part;
-  class Reader;
   [[noreturn]] void refuse(const std::string& why) const;
+  const ImagePart& part_of(int channel) const;
 
   std::string path_;
-  std::unique_ptr<Reader> reader_;
-  std::vector<Part> parts_;
+  std::unique_ptr<ImageReader> reader_;
   std::vector<FileChannel> channels_;
 };
 

@@ -96,9 +96,9 @@ TEST(ImageWriter, KeepsFloatsAndRoundsToHalf) {
   for (const auto& compression : {"none", "zips", "zip", "piz", "rle"}) {
     for (const auto& [width, height] : {std::pair(1, 1), {17, 3}, {1, 70}, {130, 67}}) {
       Image image = test::noise_image(width, height, 3, 1, 0.0f, 10.0f);
-      write_image(scratch.path("f.exr"), image.view(), QUELL_RADIANCE, {false, compression, {}});
+      write_image(scratch.path("f.exr"), image.view(), QUELL_RADIANCE, {false, {compression, {}}, {}});
       expect_equal(read_channels(scratch.path("f.exr"), {"R", "G", "B"}), image);
-      write_image(scratch.path("h.exr"), image.view(), QUELL_RADIANCE, {true, compression, {}});
+      write_image(scratch.path("h.exr"), image.view(), QUELL_RADIANCE, {true, {compression, {}}, {}});
       const Image half = read_channels(scratch.path("h.exr"), {"R", "G", "B"});
       for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) ASSERT_NEAR(half.at(1, x, y), image.at(1, x, y), 10.0f / 2048) << compression;
@@ -141,7 +141,7 @@ TEST(ImageWriter, WritesDepthAsFloatAndIdsAsWholeNumbers) {
 TEST(ImageWriter, NamesChannelsInTheOrderOfTheirPlanes) {
   const Scratch scratch;
   const Image image = test::noise_image(4, 4, 12, 5);
-  write_image(scratch.path("f.exr"), image.view(), QUELL_FEATURES, {false, "zip", {}});
+  write_image(scratch.path("f.exr"), image.view(), QUELL_FEATURES, {false, {}, {}});
   const auto names = ImageFile(scratch.path("f.exr")).channel_names();
   EXPECT_EQ(names, channel_names(QUELL_FEATURES, 12));
   expect_equal(read_channels(scratch.path("f.exr"), names), image);
@@ -150,7 +150,7 @@ TEST(ImageWriter, NamesChannelsInTheOrderOfTheirPlanes) {
 TEST(ImageWriter, KeepsMetadata) {
   const Scratch scratch;
   write_image(scratch.path("m.exr"), test::constant_image(2, 2, 3, 1).view(), QUELL_RADIANCE,
-              {true, "zip", {{"quell/graph", "svgf"}}});
+              {true, {}, {{"quell/graph", "svgf"}}});
   const auto in = OIIO::ImageInput::open(scratch.path("m.exr"));
   ASSERT_TRUE(in);
   EXPECT_EQ(in->spec().get_string_attribute("quell/graph"), "svgf");
@@ -189,12 +189,6 @@ TEST(ImageWriter, RefusesWhatItCannotWrite) {
             "cannot write 'out/a.tga': the name must end in .exr or .png");
   EXPECT_EQ(failure(Exit::usage, [&] { write_image("a.png", image.view(), QUELL_DEPTH); }),
             "cannot write 'a.png': PNG shows radiance, albedo, display and normal, not depth; write .exr");
-  EXPECT_EQ(
-      failure(Exit::usage,
-              [&] {
-                write_image("a.exr", image.view(), QUELL_DEPTH, {true, "zpi", {}});
-              }),
-      "no compression is called 'zpi'; there are: none, rle, zips, zip, piz, pxr24, dwaa, dwab. Did you mean 'zip'?");
   std::ofstream(scratch.path("file")) << "x";
   EXPECT_EQ(failure(Exit::resources, [&] { write_image(scratch.path("file/a.exr"), image.view(), QUELL_DEPTH); }),
             "cannot make the folder of '" + scratch.path("file/a.exr") + "': Not a directory");
