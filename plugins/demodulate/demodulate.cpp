@@ -18,7 +18,7 @@ struct Demodulate {
         "Schied et al. 2017, Spatiotemporal Variance-Guided Filtering. Mode clip is our own: one clipped albedo keeps "
         "the light of neighbours comparable, worth 1.3 dB on a Cycles Cornell room at 1 spp.");
     d.in(image, "image", "Radiance.");
-    d.in(albedo, "albedo", "Albedo; above 1 counts as 1 in mode clip.");
+    d.in(albedo, "albedo", "Albedo, clipped in mode clip.");
     d.out(irradiance, "image", "Radiance over clipped albedo.").passes(image);
     rule.describe(d);
   }

@@ -30,9 +30,9 @@ Image albedos(int width, int height) {
   return albedo;
 }
 
-double divisor(const std::string& mode, double floor, const Image& albedo, int c, int x, int y) {
+double divisor(const std::string& mode, double floor, double ceiling, const Image& albedo, int c, int x, int y) {
   const double a = albedo.at(c, x, y);
-  if (mode == "clip") return std::min(std::max(a, floor), 1.0);
+  if (mode == "clip") return std::min(std::max(a, floor), ceiling);
   if (mode == "asymmetric") return std::max(a, double(1e-3f));
   const double brightest = std::max({albedo.at(0, x, y), albedo.at(1, x, y), albedo.at(2, x, y)});
   return brightest < 1e-3f || brightest > 1 ? 1.0 : std::max(a, double(1e-3f));
@@ -42,34 +42,33 @@ class Demodulation : public ::testing::TestWithParam<const char*> {};
 class Inverse : public Demodulation {};
 
 TEST_P(Demodulation, DividesByTheClippedAlbedo) {
-  for_each_target([&] {
-    const auto color = noise_image(17, 3, 3, 1, 0.0f, 20.0f), albedo = albedos(17, 3);
-    const auto out = Node("demodulate")
-                         .set("mode", GetParam())
-                         .set("floor", 0.2f)
-                         .in("image", color)
-                         .in("albedo", albedo)
-                         .run("image");
-    for (int c = 0; c < 3; ++c)
-      for (int y = 0; y < 3; ++y)
-        for (int x = 0; x < 17; ++x) {
-          const double expected = color.at(c, x, y) / divisor(GetParam(), double(0.2f), albedo, c, x, y);
-          EXPECT_NEAR(out.at(c, x, y), expected, 1e-7 * expected);
-        }
-  });
+  for (const float ceiling : {1.0f, 1.5f})
+    for_each_target([&] {
+      const auto color = noise_image(17, 3, 3, 1, 0.0f, 20.0f), albedo = albedos(17, 3);
+      const auto out = Node("demodulate")
+                           .set("mode", GetParam())
+                           .set("floor", 0.2f)
+                           .set("ceiling", ceiling)
+                           .in("image", color)
+                           .in("albedo", albedo)
+                           .run("image");
+      for (int c = 0; c < 3; ++c)
+        for (int y = 0; y < 3; ++y)
+          for (int x = 0; x < 17; ++x) {
+            const double expected =
+                color.at(c, x, y) / divisor(GetParam(), double(0.2f), double(ceiling), albedo, c, x, y);
+            EXPECT_NEAR(out.at(c, x, y), expected, 1e-7 * expected);
+          }
+    });
 }
 
 TEST_P(Inverse, IsModulate) {
   for_each_target([&] {
     const auto color = noise_image(17, 3, 3, 2, 0.0f, 20.0f), albedo = albedos(17, 3), aside = noise_image(17, 3, 3, 3);
-    const auto light = Node("demodulate").set("mode", GetParam()).in("image", color).in("albedo", albedo).run("image");
-    const auto back = Node("modulate").set("mode", GetParam()).in("image", light).in("albedo", albedo).run("image");
-    const auto more = Node("modulate")
-                          .set("mode", GetParam())
-                          .in("image", light)
-                          .in("albedo", albedo)
-                          .in("emission", aside)
-                          .run("image");
+    const auto node = [](const char* type) { return Node(type).set("mode", GetParam()).set("ceiling", 1.5f); };
+    const auto light = node("demodulate").in("image", color).in("albedo", albedo).run("image");
+    const auto back = node("modulate").in("image", light).in("albedo", albedo).run("image");
+    const auto more = node("modulate").in("image", light).in("albedo", albedo).in("emission", aside).run("image");
     for (int c = 0; c < 3; ++c)
       for (int y = 0; y < 3; ++y)
         for (int x = 0; x < 17; ++x) {

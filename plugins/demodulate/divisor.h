@@ -23,7 +23,7 @@ HWY_INLINE void divisors(const demodulation::Rule& rule, const float* const* alb
   const V floor = all(clip ? rule.floor : kBlack);
   for (int c = 0; c < 3; ++c) by[c] = hn::Max(load(albedo[c] + x), floor);
   if (clip) {
-    for (int c = 0; c < 3; ++c) by[c] = hn::Min(by[c], one);
+    for (int c = 0; c < 3; ++c) by[c] = hn::Min(by[c], all(rule.ceiling));
     return;
   }
   if (rule.mode == demodulation::Mode::asymmetric) return;
