@@ -2,9 +2,9 @@
 #include "core/run/workers.h"
 
 #include "core/report/error.h"
+#include "core/run/cores.h"
 
 #include <fmt/format.h>
-#include <sched.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -19,12 +19,6 @@
 namespace quell {
 
 namespace {
-
-int usable_cores() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  return sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;
-}
 
 // Denormal weights cost an à-trous level 17 %; they are flushed while a band runs, and the thread is left as it was.
 class FlushDenormals {

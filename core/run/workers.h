@@ -14,7 +14,7 @@ namespace quell {
 
 class Workers {
  public:
-  // threads <= 0: one for each core that this process may use. Bands become events of the trace.
+  // threads <= 0: one for each of usable_cores(). Bands become events of the trace.
   explicit Workers(int threads, const std::atomic<bool>* cancel = nullptr, Trace* trace = nullptr);
   int threads() const { return threads_; }
 
