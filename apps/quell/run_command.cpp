@@ -7,6 +7,7 @@
 #include "apps/quell/run_report.h"
 
 #include "core/report/suggest.h"
+#include "core/run/memory_limit.h"
 #include "core/sequence/frame_range.h"
 #include "core/sequence/temporary_file.h"
 
@@ -112,6 +113,9 @@ int run(const RunArguments& a) {
   print_repairs(frames->repairs());
   for (const auto frame : report.resized)
     fmt::print(stderr, "warning: frame {} has another size than the frame before: its history began anew\n", frame);
+  if (report.wanted_bytes)
+    fmt::print(stderr, "warning: {} of {} frames in flight: all would take {}, more than --max-memory\n",
+               report.frames_in_flight, Overlap{}.frames_in_flight(), size_text(report.wanted_bytes));
   if (!a.quiet && a.style() != ProgressStyle::json) {
     fmt::print(stderr, "{}", summary_text(report));
     for (std::size_t i = 0; i < sink.patterns().size(); ++i)
@@ -145,13 +149,18 @@ void add_run(CLI::App& app, int& exit) {
       ->type_name("NAME[:LEVEL]")
       ->capture_default_str();
   sub->add_flag("--preview", a->preview, "Writes a PNG beside each image that an eye can read.");
-  sub->add_option("--threads", a->threads, "Threads; 0: every core.")
+  sub->add_option("--threads", a->threads,
+                  "Threads; 0: every core that affinity and quotas grant. 1 reads, filters and "
+                  "writes one after the other.")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   sub->add_option("--band-rows", a->band_rows, "Rows of a band; 0: chosen per node. Changes no result.")
       ->check(CLI::Range(0, 1 << 20))
       ->group("Tuning");
-  sub->add_option("--max-memory", a->max_memory, "Refuses to start when the images would take more; GiB, 0: no limit.")
+  sub->add_option(
+         "--max-memory", a->max_memory,
+         "Of images, GiB; 0: no limit. Gives up reading and writing beside filtering to keep to it, and refuses "
+         "to start where that is not enough.")
       ->check(CLI::Range(0.0, 1e6))
       ->group("Tuning");
   sub->add_option("--save-state", a->save_state, "Saves the history after the last frame.")

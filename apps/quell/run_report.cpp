@@ -55,6 +55,7 @@ void write_report(const std::string& path, const Graph& graph, const RunReport& 
   j["fingerprint"] = fingerprint(graph);
   j["frames"] = r.frames;
   j["threads"] = r.threads;
+  j["frames_in_flight"] = r.frames_in_flight;
   j["simd"] = simd_in_use();
   j["resets"] = r.resets;
   j["seconds"] = r.wall;

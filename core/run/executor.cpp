@@ -52,6 +52,7 @@ class Background {
     wait();
     job_ = std::async(std::launch::async, std::forward<F>(f));
   }
+  bool started() const { return job_.valid(); }
   void wait() {
     if (job_.valid()) job_.get();
   }
@@ -85,36 +86,11 @@ class Run {
     if (frames.empty()) throw Error(Exit::input, "the sequence has no frames");
     enter(source_.shapes(frames[0], roles_));
     if (!options_.load_state.empty()) resume(frames[0]);
-    read_ahead(frames[0], 0);
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      // Nodes look too, but a graph may have none that run.
-      if (options_.cancel && options_.cancel->load()) throw Error(Exit::interrupted, "interrupted");
-      reader_.wait();
-      const bool new_size = pending_shapes_.has_value();
-      if (new_size) {
-        report_.resized.push_back(frames[i]);
-        // The frame has another size: a new plan, and the frame is read into it.
-        writer_.wait();
-        enter(*std::exchange(pending_shapes_, std::nullopt));
-        read_ahead(frames[i], 0);
-        reader_.wait();
-      } else if (i > 0 && source_.cut_before(frames[i])) {
-        writer_.wait();
-        session_->forget();
-      }
-      if (session_->age() == 0) ++report_.resets;
-      if (i + 1 < frames.size()) read_ahead(frames[i + 1], 1);
-      if (!options_.overlap) reader_.wait();
-      filter(frames[i]);
-      writer_.start([this, frame = frames[i], outputs = session_->outputs()] {
-        const Stopwatch watch(report_.write_wall, report_.write_cpu);
-        const Trace::Span span(options_.trace, {"write", "file", frame}, Trace::kWriting);
-        sink_.write(frame, outputs);
-      });
-      if (!options_.overlap) writer_.wait();
-      session_->advance();
-      ++report_.frames;
-      if (options_.progress) options_.progress({frames[i], i + 1, frames.size()});
+    try {
+      for (std::size_t i = 0; i < frames.size(); ++i) run_frame(i);
+    } catch (...) {
+      writer_.wait();  // what went wrong with an earlier frame comes first
+      throw;
     }
     writer_.wait();
     if (!options_.save_state.empty()) save_state(options_.save_state, graph_, *session_, frames.back());
@@ -128,7 +104,44 @@ class Run {
   void enter(std::vector<quell_shape> shapes) {
     session_.reset();  // first, so that two plans never live at once
     session_ = std::make_unique<Session>(graph_, std::move(shapes), workers_, options_);
-    report_.plan_bytes = std::max(report_.plan_bytes, session_->plan().bytes());
+    const auto& plan = session_->plan();
+    report_.plan_bytes = std::max(report_.plan_bytes, plan.bytes());
+    const int in_flight = options_.overlap ? plan.overlap().frames_in_flight() : 1;
+    report_.frames_in_flight = report_.frames_in_flight ? std::min(report_.frames_in_flight, in_flight) : in_flight;
+    if (workers_.threads() > 1 && plan.overlap().frames_in_flight() < Overlap{}.frames_in_flight())
+      report_.wanted_bytes = std::max(report_.wanted_bytes, Plan(graph_, session_->input_shapes()).bytes());
+  }
+
+  void run_frame(std::size_t i) {
+    const auto& frames = source_.frames();
+    // Nodes look too, but a graph may have none that run.
+    if (options_.cancel && options_.cancel->load()) throw Error(Exit::interrupted, "interrupted");
+    if (reader_.started())
+      reader_.wait();
+    else
+      read(frames[i], session_->inputs(0));
+    if (pending_shapes_) {
+      report_.resized.push_back(frames[i]);
+      // The frame has another size: a new plan, and the frame is read into it.
+      writer_.wait();
+      enter(*std::exchange(pending_shapes_, std::nullopt));
+      read(frames[i], session_->inputs(0));
+    } else if (i > 0 && source_.cut_before(frames[i])) {
+      writer_.wait();
+      session_->forget();
+    }
+    if (session_->age() == 0) ++report_.resets;
+    const auto overlap = options_.overlap ? session_->plan().overlap() : Overlap{false, false};
+    if (overlap.reading && i + 1 < frames.size())
+      reader_.start([this, frame = frames[i + 1], images = session_->inputs(1)] { read(frame, images); });
+    filter(frames[i]);
+    if (overlap.writing)
+      writer_.start([this, frame = frames[i], outputs = session_->outputs()] { write(frame, outputs); });
+    else
+      write(frames[i], session_->outputs());
+    session_->advance();
+    ++report_.frames;
+    if (options_.progress) options_.progress({frames[i], i + 1, frames.size()});
   }
 
   void resume(std::int64_t first) {
@@ -141,17 +154,21 @@ class Run {
     if (source_.declared_cut(first)) session_->forget();
   }
 
-  // Reads a frame `ahead` of the current one, unless its size differs: then only its shapes are kept.
-  void read_ahead(std::int64_t frame, int ahead) {
-    reader_.start([this, frame, images = session_->inputs(ahead)] {
-      const Stopwatch watch(report_.read_wall, report_.read_cpu);
-      const Trace::Span span(options_.trace, {"read", "file", frame}, Trace::kReading);
-      auto shapes = source_.shapes(frame, roles_);
-      if (!equal(shapes, session_->input_shapes()))
-        pending_shapes_ = std::move(shapes);
-      else
-        source_.read(frame, roles_, images);
-    });
+  // Reads a frame, unless its size differs from the plan's: then only its shapes are kept.
+  void read(std::int64_t frame, const std::vector<quell_image>& images) {
+    const Stopwatch watch(report_.read_wall, report_.read_cpu);
+    const Trace::Span span(options_.trace, {"read", "file", frame}, Trace::kReading);
+    auto shapes = source_.shapes(frame, roles_);
+    if (equal(shapes, session_->input_shapes()))
+      source_.read(frame, roles_, images);
+    else
+      pending_shapes_ = std::move(shapes);
+  }
+
+  void write(std::int64_t frame, const std::vector<quell_image>& outputs) {
+    const Stopwatch watch(report_.write_wall, report_.write_cpu);
+    const Trace::Span span(options_.trace, {"write", "file", frame}, Trace::kWriting);
+    sink_.write(frame, outputs);
   }
 
   void filter(std::int64_t frame) {

@@ -1,5 +1,5 @@
-// Runs a graph over the frames of a source into a sink: reading the next frame and writing the last overlap with
-// filtering.
+// Runs a graph over the frames of a source into a sink. On more than one thread, and where memory has room for it,
+// reading the next frame and writing the last overlap with filtering.
 #pragma once
 
 #include "core/graph/graph.h"
@@ -41,7 +41,7 @@ struct RunOptions {
   int threads = 0;                               // 0: every core that the process may use
   int band_rows = 0;                             // 0: chosen per node
   bool overlap = true;                           // false: reads, filters and writes one after the other, to be timed
-  std::size_t max_memory = 0;                    // bytes for images; 0: no limit
+  std::size_t max_memory = 0;                    // bytes for images, kept to by less overlap; 0: no limit
   std::filesystem::path load_state, save_state;  // empty: none
   const std::atomic<bool>* cancel = nullptr;
   std::function<void(const Progress&)> progress;
@@ -61,13 +61,16 @@ struct RunReport {
   double wall = 0;                                        // seconds, all
   double read_wall = 0, filter_wall = 0, write_wall = 0;  // each on its own clock; they overlap
   double read_cpu = 0, filter_cpu = 0, write_cpu = 0;
+  int frames_in_flight = 0;           // being read, filtered and written at once; the least of all plans
   std::size_t plan_bytes = 0;         // images of the largest plan
+  std::size_t wanted_bytes = 0;       // what more frames in flight would have taken, where max_memory forbade them
   std::size_t resets = 0;             // frames that began without history
   std::vector<std::int64_t> resized;  // frames whose size differs from that of the frame before
   std::vector<NodeTime> nodes;        // in order
 };
 
-// Throws Error. What was written before an error stays; a frame is never half written.
+// Throws Error. What was written before an error stays; a frame is never half written. Of several errors at once the
+// one is thrown that a run without overlap would have met.
 RunReport run_graph(const Graph&, FrameSource&, FrameSink&, const RunOptions&);
 
 }  // namespace quell

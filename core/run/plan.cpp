@@ -79,7 +79,12 @@ quell_spec spec_of(const PlannedNode& n) { return {n.in.data(), n.in_count.data(
 
 }  // namespace
 
-Plan::Plan(const Graph& graph, std::span<const quell_shape> inputs) : graph_(&graph) {
+std::string place_of(const PlannedValue& v) {
+  return v.slots ? fmt::format("ring of {}", v.slots) : fmt::format("steps {}-{}", v.first, v.last);
+}
+
+Plan::Plan(const Graph& graph, std::span<const quell_shape> inputs, Overlap overlap)
+    : graph_(&graph), overlap_(overlap) {
   list_values(inputs);
   // A delayed wire may come from a node later in the order, whose shape a first pass does not know: passes are made
   // until nothing changes. A chain of more loops than this, each sized by the next alone, is no pipeline.
@@ -260,11 +265,11 @@ void Plan::memory() {
     auto& v = values_[i];
     if (!v.exists) continue;
     v.floats = plane_floats(v.shape.width, v.shape.height) * std::size_t(v.shape.channels);
-    const bool input = i < graph_->inputs.size();
     // One slot more for an input, so that the next frame is read while this one is filtered, and one more for an
     // output, so that it is written while the next is filtered.
-    if (input || v.output || v.delay > 0) {
-      v.slots = v.delay + 1 + (input ? 1 : 0) + (v.output ? 1 : 0);
+    const bool ahead = overlap_.reading && i < graph_->inputs.size(), behind = overlap_.writing && v.output;
+    if (ahead || behind || v.delay > 0) {
+      v.slots = v.delay + 1 + int(ahead) + int(behind);
       ring_floats_ += v.floats * std::size_t(v.slots);
     } else {
       intervals.push_back({v.first, v.last, v.floats});
@@ -316,19 +321,16 @@ std::string Plan::describe() const {
     for (std::size_t o = 0; !weight && o < g.nodes[n].type().outputs().size(); ++o) {
       const auto& v = values_[first_value_[n] + o];
       if (!v.exists) continue;
-      out +=
-          fmt::format(" {}:{} {}x{}x{}{}", g.nodes[n].type().outputs()[o].name, type_name(v.type), v.shape.width,
-                      v.shape.height, v.shape.channels,
-                      v.slots ? fmt::format(" (ring of {})", v.slots) : fmt::format(" (steps {}-{})", v.first, v.last));
+      out += fmt::format(" {}:{} {}x{}x{} ({})", g.nodes[n].type().outputs()[o].name, type_name(v.type), v.shape.width,
+                         v.shape.height, v.shape.channels, place_of(v));
     }
     out += '\n';
   }
   out += "inputs\n";
   for (std::size_t i = 0; i < g.inputs.size(); ++i) {
     const auto& v = values_[i];
-    out += fmt::format("      {:28} {:20} {:22} {:>9.1f} {}x{}x{} (ring of {})\n", v.name, type_name(v.type), "",
-                       double(v.floats * std::size_t(v.slots) * sizeof(float)) / kMiB, v.shape.width, v.shape.height,
-                       v.shape.channels, v.slots);
+    out += fmt::format("      {:28} {:20} {:22} {:>9.1f} {}x{}x{} ({})\n", v.name, type_name(v.type), "",
+                       double(v.bytes()) / kMiB, v.shape.width, v.shape.height, v.shape.channels, place_of(v));
   }
   out += fmt::format(
       "memory: {:.1f} MiB: {:.1f} arena, {:.1f} rings of inputs, outputs and history ({:.1f} without reuse)\n",

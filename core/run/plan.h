@@ -12,6 +12,13 @@
 
 namespace quell {
 
+// What goes on while a frame is filtered. Each needs room of its own: the inputs of the next frame, the outputs of the
+// last.
+struct Overlap {
+  bool reading = true, writing = true;
+  int frames_in_flight() const { return 1 + int(reading) + int(writing); }
+};
+
 // One image that exists during a run: a graph input or a node's output.
 struct PlannedValue {
   std::string name;  // "color", "blend.image"
@@ -24,7 +31,12 @@ struct PlannedValue {
   int first = 0, last = 0;  // steps of the order during which it lives
   std::size_t floats = 0;   // of one slot
   std::size_t offset = 0;   // in the arena, floats
+  // Of all slots.
+  std::size_t bytes() const { return floats * sizeof(float) * std::size_t(slots > 0 ? slots : 1); }
 };
+
+// "ring of 3" frames, or the "steps 2-5" of the order during which it has a place in the arena.
+std::string place_of(const PlannedValue&);
 
 struct PlannedNode {
   std::vector<quell_shape> in;  // first image of each input port
@@ -41,9 +53,10 @@ class Plan {
  public:
   // `inputs` has a shape for each graph input. Throws Error(Exit::usage) when sizes do not fit, Error(Exit::plugin)
   // when a node refuses them.
-  Plan(const Graph&, std::span<const quell_shape> inputs);
+  Plan(const Graph&, std::span<const quell_shape> inputs, Overlap = {});
 
   const Graph& graph() const { return *graph_; }
+  Overlap overlap() const { return overlap_; }
   const std::vector<PlannedValue>& values() const { return values_; }
   const std::vector<PlannedNode>& nodes() const { return nodes_; }
   std::size_t value_of(Source s) const {
@@ -73,6 +86,7 @@ class Plan {
   void memory();
 
   const Graph* graph_;
+  Overlap overlap_;
   std::vector<PlannedValue> values_;
   std::vector<PlannedNode> nodes_;
   std::vector<std::size_t> first_value_;

@@ -1,9 +1,7 @@
 // One plan at work.
 #include "core/run/session.h"
 
-#include "core/report/error.h"
-
-#include <fmt/format.h>
+#include "core/run/memory_limit.h"
 
 #include <chrono>
 #include <utility>
@@ -12,21 +10,15 @@ namespace quell {
 
 namespace {
 
-Plan within(Plan plan, std::size_t max_memory) {
-  if (max_memory && plan.bytes() > max_memory)
-    throw Error(Exit::resources,
-                fmt::format("the graph needs {:.1f} MiB for images at this size, but the limit is {:.1f} MiB; raise "
-                            "--max-memory or use smaller frames",
-                            double(plan.bytes()) / 1048576.0, double(max_memory) / 1048576.0));
-  return plan;
-}
+// One thread does one thing at a time.
+Overlap overlap_on(const Workers& workers) { return {workers.threads() > 1, workers.threads() > 1}; }
 
 }  // namespace
 
 Session::Session(const Graph& graph, std::vector<quell_shape> inputs, Workers& workers, const RunOptions& options)
     : graph_(&graph),
       input_shapes_(std::move(inputs)),
-      plan_(within(Plan(graph, input_shapes_), options.max_memory)),
+      plan_(plan_within(graph, input_shapes_, overlap_on(workers), options.max_memory)),
       buffers_(plan_),
       resources_(graph, plan_),
       workers_(&workers),

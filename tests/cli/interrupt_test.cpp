@@ -1,24 +1,12 @@
 // Runs that are interrupted or killed, and the memory of long ones.
 #include "tests/support/quell_command.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <csignal>
-#include <fstream>
-#include <limits>
 #include <string>
 
 namespace quell::test {
 namespace {
-
-// A line of /proc/<id>/status, as a number to the base; 0 when the process has gone.
-std::uint64_t status(pid_t id, const std::string& key, int base) {
-  std::ifstream in(fmt::format("/proc/{}/status", id));
-  for (std::string line; std::getline(in, line);)
-    if (line.starts_with(key + ":")) return std::stoull(line.substr(key.size() + 1), nullptr, base);
-  return 0;
-}
 
 class Interrupt : public QuellCommand {
  protected:
@@ -69,7 +57,7 @@ TEST_F(Interrupt, EndsTheRunWithWholeFrames) {
 
 TEST_F(Interrupt, WorksWhileTheFirstFrameIsStillMade) {
   Program program(long_run("1000000"), here({.seconds = 60}));
-  ASSERT_TRUE(program.wait_until([&] { return (status(program.id(), "SigCgt", 16) >> (SIGINT - 1)) & 1; }));
+  ASSERT_TRUE(program.wait_until([&] { return (program.status("SigCgt", 16) >> (SIGINT - 1)) & 1; }));
   program.send(SIGINT);
   const auto r = program.finish();
   EXPECT_EQ(r.exit, 130) << r.err;
@@ -119,7 +107,7 @@ TEST_F(Interrupt, MemoryDoesNotGrowWithTheSequence) {
   std::uint64_t early = 0, late = 0;
   program.wait_until([&] {
     if (frames_done(program) < 10) return false;
-    const auto held = status(program.id(), "RssAnon", 10);
+    const auto held = program.status("RssAnon");
     if (early == 0) early = held;
     late = std::max(late, held);
     return false;

@@ -118,7 +118,7 @@ std::vector<Mistake> mistakes() {
       {"SourceWithoutValue", room({"--source", "width"}), 2, {"--source width: expected NAME=VALUE"}},
       {"SourceOfUnknownScene", room({"--source", "scene=no.json"}), 2, {"there is no file \"no.json\""}},
       {"PluginFolderIsNotThere", room({"--plugins", "no"}), 4, {"--plugins no: there is no such folder"}},
-      {"TooLittleMemory", room({"--max-memory", "0.0001"}), 5, {"the limit is 0.1 MiB", "--max-memory"}},
+      {"TooLittleMemory", room({"--max-memory", "0.0001"}), 5, {"the limit is 104.9 KiB", "--max-memory"}},
       {"MemoryIsNegative", room({"--max-memory", "-1"}), 2, {"--max-memory"}},
       {"OneFileForAllFrames",
        room({"-o", "color.exr"}),

@@ -3,6 +3,7 @@
 #include "core/plugin/registry.h"
 #include "core/report/error.h"
 #include "core/run/executor.h"
+#include "core/run/plan.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -378,6 +379,14 @@ void run_part(const Graph& graph, const Course& course, std::size_t begin, std::
   run_graph(graph, source, sink, options);
 }
 
+// Bytes that suffice for every size of the course with as much overlap.
+std::size_t limit_for(const Graph& graph, const Course& course, Overlap overlap) {
+  std::size_t bytes = 0;
+  for (const auto& [frame, shape] : course.shapes)
+    bytes = std::max(bytes, Plan(graph, std::vector<quell_shape>(graph.inputs.size(), shape), overlap).bytes());
+  return bytes;
+}
+
 TEST(ExecutorRandom, AgreesWithAnInterpreterThatKeepsAllFrames) {
   const auto state =
       std::filesystem::temp_directory_path() / fmt::format("quell_random_{}.state", static_cast<long>(getpid()));
@@ -395,6 +404,8 @@ TEST(ExecutorRandom, AgreesWithAnInterpreterThatKeepsAllFrames) {
     RunOptions options;
     options.threads = 1 + random.below(3);
     options.band_rows = random.below(4);
+    const bool reading = random.one_in(2), writing = random.one_in(2);
+    options.max_memory = limit_for(made.graph(), course, {reading, writing});
     Kept whole;
     run_part(made.graph(), course, 0, course.frames.size(), seed, options, whole);
     ASSERT_EQ(first_difference(whole, expected), "") << "seed " << seed << "\n" << fingerprint_text(made.graph());

@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 #include <thread>
 
@@ -102,6 +103,13 @@ Program::~Program() {
 bool Program::running() {
   if (!ended_) ended_ = waitpid(id_, &status_, WNOHANG) == id_;
   return !ended_;
+}
+
+std::uint64_t Program::status(const std::string& key, int base) const {
+  std::ifstream in("/proc/" + std::to_string(id_) + "/status");
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with(key + ":")) return std::stoull(line.substr(key.size() + 1), nullptr, base);
+  return 0;
 }
 
 std::string Program::out() const { return content(out_); }

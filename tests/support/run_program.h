@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sys/types.h>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
@@ -35,6 +36,8 @@ class Program {
 
   pid_t id() const { return id_; }
   bool running();
+  // A line of its /proc status, as a number to the base; 0 when it has gone.
+  std::uint64_t status(const std::string& key, int base = 10) const;
   std::string out() const;  // so far
   std::string err() const;
   // Waits until this holds; false when the program ended, or its time was over, before it did.
