@@ -46,12 +46,13 @@ Workers::Workers(int threads, const std::atomic<bool>* cancel, Trace* trace)
 void Workers::run(const GraphNode& node, const void* resource, quell_tile tile, int tiled, int band_rows) {
   const int width = tile.out[tiled].width, height = tile.out[tiled].height;
   const int bands = (height + band_rows - 1) / band_rows;
-  std::atomic<bool> failed{false};
+  // The first band that fails speaks for the node: those before it run whatever happens, so that it is always the same.
+  std::atomic<int> failed_band{bands};
   std::mutex mutex;
-  int failed_band = bands;
   std::string failure;
   const auto run_band = [&](int band) {
-    if (failed.load(std::memory_order_relaxed) || (cancel_ && cancel_->load(std::memory_order_relaxed))) return;
+    if (band > failed_band.load(std::memory_order_relaxed)) return;
+    if (cancel_ && cancel_->load(std::memory_order_relaxed)) return;
     const FlushDenormals flush;
     quell_tile t = tile;
     t.x0 = 0, t.x1 = width;
@@ -60,7 +61,6 @@ void Workers::run(const GraphNode& node, const void* resource, quell_tile tile, 
     const Trace::Span span(trace_, {node.name, node.type().name(), tile.frame, t.y0, t.y1});
     if (node.type().table().run(node.instance.data(), resource, &t, &error) == 0) return;
     const std::scoped_lock lock(mutex);
-    failed = true;
     if (band < failed_band)
       failed_band = band, failure = fmt::format("{} ({}), frame {}, rows {}-{}: {}", node.name, node.type().name(),
                                                 tile.frame, t.y0, t.y1 - 1, error.text);
@@ -77,7 +77,7 @@ void Workers::run(const GraphNode& node, const void* resource, quell_tile tile, 
           tbb::simple_partitioner());
     });
   }
-  if (failed) throw Error(Exit::plugin, failure);
+  if (failed_band < bands) throw Error(Exit::plugin, failure);
   if (cancel_ && cancel_->load()) throw Error(Exit::interrupted, "interrupted");
 }
 
