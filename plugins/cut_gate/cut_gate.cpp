@@ -9,7 +9,7 @@ struct CutGate {
   quell::In<quell::Taps> taps;
   quell::In<quell::Value> share;
   quell::Out<quell::Taps> gated;
-  float threshold = 0.7f;
+  float threshold = 0.5f;
 
   void describe(quell::Describe& d) {
     d.summary(
