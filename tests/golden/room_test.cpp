@@ -1,9 +1,9 @@
 // SVGF over the built-in room: how much it gains, that it leaves neither blotches nor ghosts, and that neither threads,
 // bands nor chunks change a bit.
-#include "core/run/node_source.h"
 #include "tests/support/paths.h"
 #include "tests/support/run_node.h"
 #include "tests/support/run_sequence.h"
+#include "tests/support/trace_room.h"
 
 #include <gtest/gtest.h>
 #include <quell/types.h>
@@ -25,21 +25,8 @@ SequenceRun room(const std::string& frames, const std::string& graph = "svgf") {
           .source_ints = {{"width", kWidth}, {"height", kHeight}}};
 }
 
-// Outputs of the path tracer for one frame.
 std::vector<Image> trace(std::int64_t frame, int spp, int seed, const std::vector<std::string>& roles) {
-  const auto* type = registry().find("path_tracer");
-  Instance instance(*type);
-  for (const auto& [name, value] : {std::pair{"width", kWidth}, {"height", kHeight}, {"spp", spp}, {"seed", seed}})
-    instance.set_int(type->find_param(name), value);
-  instance.set_text(type->find_param("scene"), QUELL_TEST_SOURCE "/graphs/scenes/room.json");
-  NodeSource source(std::move(instance), {frame}, {}, 0, nullptr);
-  std::vector<Image> images;
-  std::vector<quell_image> views;
-  for (const auto& shape : source.shapes(frame, roles)) views.push_back(images.emplace_back(shape).view());
-  views.clear();
-  for (auto& image : images) views.push_back(image.view());
-  source.read(frame, roles, views);
-  return images;
+  return trace_room({frame, spp, seed, kWidth, kHeight}, roles);
 }
 
 double tone(float x) { return double(x) / (1.0 + double(x)); }
