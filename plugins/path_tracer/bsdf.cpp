@@ -69,6 +69,12 @@ float Bsdf::coat_share(const Dir& from) const {
   return std::clamp(coat / std::max(coat + base, 1e-6f), 0.05f, 0.95f);
 }
 
+// A plastic surface's base: what the coat lets in and out again; reciprocal, and never more than arrives.
+Rgb Bsdf::base(const Dir& from, const Dir& to) const {
+  const float through = (1 - fresnel(from.z)) * (1 - fresnel(to.z));
+  return color_ * (through * to.z / kPi);
+}
+
 Rgb Bsdf::evaluate(const Dir& from, const Dir& to) const {
   if (exact() || from.z <= 0 || to.z <= 0) return Rgb(0);
   if (kind_ == Material::Kind::diffuse) return color_ * (to.z / kPi);
@@ -76,9 +82,13 @@ Rgb Bsdf::evaluate(const Dir& from, const Dir& to) const {
   const float gloss = density(half) / (4 * from.z * (1 + lambda(from) + lambda(to)));
   const float cosine = std::min(1.0f, glm::dot(from, half));
   if (kind_ == Material::Kind::conductor) return schlick(cosine) * gloss;
-  // What the coat lets in and out again; reciprocal, and never more than arrives.
-  const float through = (1 - fresnel(from.z)) * (1 - fresnel(to.z));
-  return Rgb(fresnel(cosine) * gloss) + color_ * (through * to.z / kPi);
+  return Rgb(fresnel(cosine) * gloss) + base(from, to);
+}
+
+Rgb Bsdf::matte_share(const Dir& from, const Dir& to) const {
+  if (kind_ == Material::Kind::diffuse) return Rgb(1);
+  if (kind_ != Material::Kind::plastic) return Rgb(0);
+  return base(from, to) / glm::max(evaluate(from, to), Rgb(1e-30f));
 }
 
 float Bsdf::pdf(const Dir& from, const Dir& to) const {

@@ -22,10 +22,13 @@ class Bsdf {
   // f · cosine for light from `to`, and the density with which `sample` picks `to`.
   Rgb evaluate(const Dir& from, const Dir& to) const;
   float pdf(const Dir& from, const Dir& to) const;
+  // How much of `evaluate` is the matte base's, channel by channel; the rest is gloss.
+  Rgb matte_share(const Dir& from, const Dir& to) const;
   // `choice` picks a lobe, `u` a direction in it.
   Scattered sample(const Dir& from, float choice, const glm::vec2& u) const;
 
  private:
+  Rgb base(const Dir& from, const Dir& to) const;
   float coat_share(const Dir& from) const;
   float fresnel(float cosine) const;
   Rgb schlick(float cosine) const;

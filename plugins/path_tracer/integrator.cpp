@@ -20,9 +20,10 @@ Vec beside(const Vec& p, const Vec& normal, const Vec& towards) {
 
 }  // namespace
 
-Rgb path_radiance(const Moment& m, const Ray& primary, const std::optional<Hit>& first, const Sampler& sampler,
-                  int max_bounces) {
-  Rgb sum(0), throughput(1);
+Traced path_radiance(const Moment& m, const Ray& primary, const std::optional<Hit>& first, const Sampler& sampler,
+                     int max_bounces) {
+  Traced sum;
+  Rgb throughput(1), matte(0);  // the share of throughput that the first surface's base has let through
   Ray ray = primary;
   std::optional<Hit> hit = first;
   // The vertex before, and the density of the direction that led here; infinite where no lamp could have been sampled
@@ -32,18 +33,24 @@ Rgb path_radiance(const Moment& m, const Ray& primary, const std::optional<Hit>&
   const auto share = [&](auto&& light_pdf) {
     return std::isinf(scattered_pdf) ? 1.0f : scattered_pdf / (scattered_pdf + light_pdf());
   };
+  const auto add = [&](const Rgb& gain, const Rgb& diffuse) {
+    sum.all += gain;
+    sum.diffuse += gain * diffuse;
+    sum.specular += gain * (Rgb(1) - diffuse);
+  };
   for (int bounce = 0;; ++bounce) {
+    const auto seen = [&](const Rgb& gain) { bounce ? add(gain, matte) : void(sum.all += gain); };
     if (!hit) {
       const Rgb sky = m.scene.environment.at(glm::normalize(ray.direction));
       if (largest(sky) > 0)
-        sum += throughput * sky * share([&] { return m.lights.pdf_environment(receiver, ray.direction); });
+        seen(throughput * sky * share([&] { return m.lights.pdf_environment(receiver, ray.direction); }));
       break;
     }
     const Material& material = m.scene.materials[std::size_t(hit->material)];
     if (material.kind == Material::Kind::emitter) {
-      const Rgb seen = m.lights.radiance(*hit, ray);
-      if (largest(seen) > 0)
-        sum += throughput * seen * share([&] { return m.lights.pdf(receiver, ray.direction, *hit); });
+      const Rgb lamp = m.lights.radiance(*hit, ray);
+      if (largest(lamp) > 0)
+        seen(throughput * lamp * share([&] { return m.lights.pdf(receiver, ray.direction, *hit); }));
       break;
     }
     if (bounce == max_bounces) break;
@@ -66,13 +73,14 @@ Rgb path_radiance(const Moment& m, const Ray& primary, const std::optional<Hit>&
         // The lamp itself must not count as being in the way.
         if (largest(gain) > 0 &&
             !m.geometry.occluded(m.placement, {receiver.position, s.direction}, s.distance * (1 - 1e-4)))
-          sum += gain;
+          add(gain, bounce ? matte : bsdf.matte_share(from, to));
       }
     }
 
     const Scattered s = bsdf.sample(from, sampler.one(dimension + kLobe), sampler.pair(dimension + kDirection));
     if (!(s.pdf > 0)) break;
     throughput *= s.weight;
+    if (bounce == 0) matte = bsdf.matte_share(from, s.direction);
     if (!(largest(throughput) > 0)) break;
     if (bounce > 0) {
       const float survival = std::clamp(largest(throughput), 0.05f, 1.0f);

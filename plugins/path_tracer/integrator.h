@@ -14,9 +14,15 @@ struct Moment {
   const Lights& lights;
 };
 
+// Radiance, and the parts of it that the first surface scattered by its matte base and by gloss; what is left was seen
+// directly.
+struct Traced {
+  Rgb all{0}, diffuse{0}, specular{0};
+};
+
 // One sample of the radiance along `ray`, whose first hit is given: unidirectional path tracing, at each vertex one
 // lamp and one scattered direction, combined by the balance heuristic (Veach and Guibas 1995, eq. 12). A path ends
 // after `max_bounces` scatterings, and earlier by Russian roulette on its throughput.
-Rgb path_radiance(const Moment&, const Ray& ray, const std::optional<Hit>& first, const Sampler&, int max_bounces);
+Traced path_radiance(const Moment&, const Ray& ray, const std::optional<Hit>& first, const Sampler&, int max_bounces);
 
 }  // namespace path_tracer

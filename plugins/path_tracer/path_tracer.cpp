@@ -31,7 +31,7 @@ struct PathTracer {
   quell::Out<quell::Position> position;
   quell::Out<quell::Motion> motion;
   quell::Out<quell::Id> id;
-  quell::Out<quell::Radiance> emission;
+  quell::Out<quell::Radiance> emission, diffuse, specular;
   quell::Out<quell::Camera> camera;
   quell::Out<quell::Transforms> transforms;
   quell::Path scene{{{"quell:scenes/room.json", 22}}};
@@ -61,6 +61,10 @@ struct PathTracer {
         "rotation. 1e6 for points that were behind the camera. Defined for the first frame too, as the animation is.");
     d.out(id, "id", "Index of the object in the scene file.");
     d.out(emission, "emission", "Part of color that no surface has scattered: emitters and environment seen directly.");
+    d.out(diffuse, "diffuse",
+          "Part of color that the first surface scattered by its matte base. Emission, diffuse and specular make up "
+          "color.");
+    d.out(specular, "specular", "Part of color that the first surface scattered by gloss, mirror or glass.");
     d.out(camera, "camera", "Matrices of this frame.");
     d.out(transforms, "transforms", "Object to world in this frame, one matrix an object.");
     d.param(scene, "scene", "Scene file (JSON).");
@@ -82,7 +86,7 @@ struct PathTracer {
 
   void shapes(const quell_spec&, quell_shape* out) const {
     const Scene read = read_scene(file());
-    for (int i = 0; i < 8; ++i) out[i].width = width, out[i].height = height;
+    for (int i = 0; i < camera.index; ++i) out[i].width = width, out[i].height = height;
     out[camera.index] = {16, 2, 1};
     out[transforms.index] = {16, int(read.objects.size()), 1};
   }
@@ -105,7 +109,10 @@ struct PathTracer {
         const Ray ray = view.ray(x + 0.5, y + 0.5);
         const auto hit = stage.geometry.intersect(placement, ray);
         write_features(tile, moment, x, y, ray, hit, view_before, back);
-        write(tile, color, x, y, estimate(moment, view, x, y, ray, hit, tile.frame));
+        const Traced light = estimate(moment, view, x, y, ray, hit, tile.frame);
+        write(tile, color, x, y, light.all);
+        write(tile, diffuse, x, y, light.diffuse);
+        write(tile, specular, x, y, light.specular);
       }
     if (tile.x0 == 0 && tile.y0 == 0) write_tables(tile, view, placement);
   }
@@ -118,13 +125,13 @@ struct PathTracer {
     for (int c = 0; c < 3; ++c) tile.row(out, c, y)[x] = value[c];
   }
 
-  Rgb estimate(const Moment& moment, const Camera& view, int x, int y, const Ray& center,
-               const std::optional<Hit>& center_hit, std::int64_t frame) const {
+  Traced estimate(const Moment& moment, const Camera& view, int x, int y, const Ray& center,
+                  const std::optional<Hit>& center_hit, std::int64_t frame) const {
     constexpr std::uint32_t kPixelPlace = 0xffffffffu;  // a dimension that no path reaches
-    glm::dvec3 sum(0);
+    glm::dvec3 all(0), matte(0), gloss(0);
     for (int i = 0; i < spp; ++i) {
       const Sampler sampler(std::uint32_t(seed), frame, x, y, i);
-      Rgb value;
+      Traced value;
       if (jitter == Jitter::box) {
         const glm::vec2 u = sampler.pair(kPixelPlace);
         const Ray ray = view.ray(x + double(u.x), y + double(u.y));
@@ -132,10 +139,14 @@ struct PathTracer {
       } else {
         value = path_radiance(moment, center, center_hit, sampler, max_bounces);
       }
-      if (clamp > 0 && largest(value) > clamp) value *= clamp / largest(value);
-      sum += glm::dvec3(value);
+      if (clamp > 0 && largest(value.all) > clamp) {
+        const float scale = clamp / largest(value.all);
+        value = {value.all * scale, value.diffuse * scale, value.specular * scale};
+      }
+      all += glm::dvec3(value.all), matte += glm::dvec3(value.diffuse), gloss += glm::dvec3(value.specular);
     }
-    return Rgb(sum / double(spp));
+    const double n = spp;
+    return {Rgb(all / n), Rgb(matte / n), Rgb(gloss / n)};
   }
 
   void write_features(const quell::Tile& tile, const Moment& moment, int x, int y, const Ray& ray,

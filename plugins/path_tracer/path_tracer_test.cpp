@@ -3,6 +3,7 @@
 
 #include <quell/types.h>
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
@@ -49,6 +50,26 @@ TEST(PathTracer, SeedAndFrameChooseTheNoise) {
   EXPECT_FALSE(same_bits(a, b));
   // The animation loops after 32 frames, so these show the same scene.
   EXPECT_FALSE(same_bits(a, tracer(kRoom, 32, 18).frame(32).run("color")));
+}
+
+// What is seen directly, the light off matte bases and that off gloss make up the whole, up to rounding.
+TEST(PathTracer, PartsAddUpToColor) {
+  const auto out = tracer(kRoom, 96, 54, 8).run();
+  int matte = 0, gloss = 0, both = 0;
+  for (int y = 0; y < 54; ++y)
+    for (int x = 0; x < 96; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const double all = out[kColor].at(c, x, y), diffuse = out[kDiffuse].at(c, x, y),
+                     specular = out[kSpecular].at(c, x, y);
+        EXPECT_NEAR(out[kEmission].at(c, x, y) + diffuse + specular, all, 2e-6 * all + 1e-6) << x << ',' << y;
+        EXPECT_GE(std::min(diffuse, specular), 0);
+      }
+      const bool d = out[kDiffuse].at(1, x, y) > 0, s = out[kSpecular].at(1, x, y) > 0;
+      matte += d && !s, gloss += s && !d, both += d && s;
+    }
+  EXPECT_GT(matte, 500) << "walls";
+  EXPECT_GT(gloss, 50) << "metal and mirror";
+  EXPECT_GT(both, 100) << "the polished floor";
 }
 
 TEST(PathTracer, LeavesThreadsToTheHost) {

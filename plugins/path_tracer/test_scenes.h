@@ -21,7 +21,20 @@ using quell::test::Node;
 
 inline const std::string kRoom = QUELL_TEST_SOURCE "/graphs/scenes/room.json";
 
-enum Output { kColor, kAlbedo, kNormal, kDepth, kPosition, kMotion, kId, kEmission, kCamera, kTransforms };
+enum Output {
+  kColor,
+  kAlbedo,
+  kNormal,
+  kDepth,
+  kPosition,
+  kMotion,
+  kId,
+  kEmission,
+  kDiffuse,
+  kSpecular,
+  kCamera,
+  kTransforms
+};
 
 // A scene file of this process's own, for tests run beside each other; removed when the process ends.
 inline std::string scene_file(const std::string& name, const std::string& text) {
