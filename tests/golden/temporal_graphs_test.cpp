@@ -64,7 +64,7 @@ TEST_P(TemporalGraphs, BeatTheirInput) {
 INSTANTIATE_TEST_SUITE_P(Shipped, TemporalGraphs,
                          testing::Values(Gain{"temporal_accumulation", 6, 0.1, 0.2},
                                          Gain{"dual_rate_accumulation", 6, 0.1, 0.2}, Gain{"taa", 1.5, 0.4, 0.2},
-                                         Gain{"svgf_falcor", 9, 0.03, 0.2}),
+                                         Gain{"svgf_falcor", 9, 0.03, 0.2}, Gain{"svgf_dual", 10, 0.02, 0.2}),
                          [](const auto& test) { return std::string(test.param.graph); });
 
 }  // namespace
