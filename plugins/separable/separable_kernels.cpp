@@ -33,7 +33,7 @@ HWY_INLINE void add_taps(const float* kernel, const float* from, V (&sum)[kVecto
 HWY_INLINE void add_along(const Convolution& c, const float* from, V (&sum)[kVectors]) {
   const int taps = 2 * c.radius + 1;
 #pragma GCC unroll 8
-  for (int i = 0; i < kVectors; ++i) sum[i] = zero();
+  for (V& v : sum) v = zero();
   for (int first = 0; first < kLanes && first < taps; ++first)
     for (int k = first; k < taps; k += 4 * kLanes) {
       const float *kernel = c.kernel.data() + k, *at = from + k;

@@ -170,7 +170,7 @@ void on_the_host(int rounds, int threads) {
           [&] { in_bands(threads, kHeight, [&](int a, int b) { level.band<false>(in, guides, out, step, a, b); }); }},
          {"fused, with borders",
           [&] { in_bands(threads, kHeight, [&](int a, int b) { level.band<true>(in, guides, out, step, a, b); }); }},
-         {"graph", [&] { graph.filter(); }}});
+         graph.contestant("graph")});
     for (std::size_t k = 0; k < 3; ++k) sums[k] += costs[k].wall;
   }
   std::printf(" five levels, wall: padded %.1f ms, with borders %.1f ms, graph %.1f ms: %.3f and %.3f times\n",

@@ -31,8 +31,8 @@ void blur(int rounds, int threads) {
 #else
   std::puts("  built without OpenCV: nothing to compare with");
 #endif
-  all.push_back({"separable_gaussian", [&] { passes.filter(); }});
-  all.push_back({"gaussian", [&] { node.filter(); }});
+  all.push_back(passes.contestant("separable_gaussian"));
+  all.push_back(node.contestant("gaussian"));
   contest(rounds, all);
 #ifdef QUELL_BENCH_OPENCV
   std::printf("  largest difference inside: %.1e and %.1e\n", largest_difference(passes.outputs()[0], out, kRadius),

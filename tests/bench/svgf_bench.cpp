@@ -109,7 +109,7 @@ void against_the_floor([[maybe_unused]] int rounds, [[maybe_unused]] int threads
   std::printf("%d thread%s, %dx%d\n", threads, threads > 1 ? "s" : "", kWidth, kHeight);
   const auto costs = contest(rounds, {{"five fused levels, with borders", [&] { five(std::true_type{}); }},
                                       {"five fused levels, padded", [&] { five(std::false_type{}); }},
-                                      {"graph", [&] { graph.filter(); }},
+                                      graph.contestant("graph"),
                                       {"triad of 25 MB each", [&] { triad.run(); }}});
   const double bandwidth = Triad::bytes() / costs[3].wall;
   const auto print_floor = [&](const char* what, double bytes) {
@@ -166,15 +166,15 @@ bool against_plain_loops(int rounds, int threads) {
   NaiveSvgf naive(kWidth, kStrip, threads);
   double differ = 0;
   for (int f = 0; f < kWarmUp; ++f) {
-    graph.filter();
     const auto out = naive.filter(frame_of(graph), true);
+    graph.filter();
     differ = std::max(differ, disagreement(graph.outputs()[0], out));
     graph.advance();
   }
   const auto frame = frame_of(graph);
   std::printf("%d thread%s, %dx%d; frames differ in %.4f %% of the pixels at most\n", threads, threads > 1 ? "s" : "",
               kWidth, kStrip, 100 * differ);
-  contest(rounds, {{"graph", [&] { graph.filter(); }}, {"plain loops", [&] { naive.filter(frame, false); }}});
+  contest(rounds, {graph.contestant("graph"), {"plain loops", [&] { naive.filter(frame, false); }}});
   return differ < 1e-3;
 }
 

@@ -35,8 +35,7 @@ void bilateral(int rounds, int threads) {
   const std::vector<std::string> set{"radius=7", "sigma=4", "sigma_color=0.6", "filter.shape=disc"};
   HostGraph disc(load("bilateral", set), kWidth, kHeight, threads),
       square(load("bilateral", {set.begin(), set.begin() + 3}), kWidth, kHeight, threads);
-  std::vector<Contestant> all{{"bilateral, disc", [&] { disc.filter(); }},
-                              {"bilateral, square", [&] { square.filter(); }}};
+  std::vector<Contestant> all{disc.contestant("bilateral, disc"), square.contestant("bilateral, square")};
 #ifdef QUELL_BENCH_OPENCV
   cv::setNumThreads(threads);
   const cv::Mat in = interleaved(disc.inputs()[0]);
@@ -78,11 +77,11 @@ void of_games202(int rounds, int threads) {
   const auto in = graph.inputs();
   NaiveWindow naive(in[0], in[1], in[2], {});
   constexpr int kFirst = (kHeight - kStrip) / 2;
-  std::vector<Contestant> all{{"window", [&] { graph.filter(); }}, {"plain loops, a strip of 16 rows", [&] {
-                                                                      in_bands(threads, kStrip, [&](int y0, int y1) {
-                                                                        naive.band(kFirst + y0, kFirst + y1);
-                                                                      });
-                                                                    }}};
+  std::vector<Contestant> all{graph.contestant("window"), {"plain loops, a strip of 16 rows", [&] {
+                                                             in_bands(threads, kStrip, [&](int y0, int y1) {
+                                                               naive.band(kFirst + y0, kFirst + y1);
+                                                             });
+                                                           }}};
 #ifdef __AVX512F__
   FusedWindow fused(kWidth, kHeight, {});
   fused.take(in[0], in[1], in[2]);
