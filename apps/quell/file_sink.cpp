@@ -24,16 +24,13 @@ std::string beside(const std::string& first, const std::string& output) {
   return (path.parent_path() / (output + ".####" + path.extension().string())).string();
 }
 
-bool shows(int type) {
-  return type == QUELL_RADIANCE || type == QUELL_ALBEDO || type == QUELL_DISPLAY || type == QUELL_NORMAL;
-}
-
 }  // namespace
 
 FileSink::FileSink(const Graph& graph, const Sequence& sequence, std::span<const std::int64_t> frames,
-                   const std::vector<std::string>& wanted, bool preview, WriteOptions options)
+                   const std::vector<std::string>& wanted, WriteOptions options)
     : options_(std::move(options)) {
-  for (const auto& output : graph.outputs) types_.push_back(output.type), names_.push_back(output.name);
+  for (const auto& output : graph.outputs)
+    if (output.shows < 0) types_.push_back(output.type), names_.push_back(output.name);
   const auto texts = choose(wanted);
   for (std::size_t i = 0; i < texts.size(); ++i) {
     patterns_.emplace_back(texts[i]);
@@ -41,9 +38,14 @@ FileSink::FileSink(const Graph& graph, const Sequence& sequence, std::span<const
       throw Error(Exit::usage,
                   fmt::format("-o {}: every frame would go to this one file; put #### where the frame number belongs",
                               texts[i]));
-    const bool shown = preview && shows(types_[i]) && fs::path(texts[i]).extension() != ".png";
-    previews_.emplace_back(shown ? fs::path(texts[i]).replace_extension(".png").string() : "");
     check_writing(texts[i], types_[i]);
+  }
+  for (const auto& output : graph.outputs) {
+    if (output.shows < 0) continue;
+    const fs::path image(texts[std::size_t(output.shows)]);
+    // A PNG is its own preview.
+    previews_.emplace_back(image.extension() == ".png" ? "" : fs::path(image).replace_extension(".png").string());
+    shown_.push_back(output.shows);
   }
   check_files(sequence, frames);
 }
@@ -92,7 +94,8 @@ void FileSink::check_files(const Sequence& sequence, std::span<const std::int64_
       for (std::size_t i = 0; i < list->size(); ++i) {
         const auto& pattern = (*list)[i];
         if (pattern.text().empty()) continue;
-        const auto what = fmt::format("{} '{}'", list == &previews_ ? "the preview of" : "output", names_[i]);
+        const auto what = list == &previews_ ? fmt::format("the preview of '{}'", names_[std::size_t(shown_[i])])
+                                             : fmt::format("output '{}'", names_[i]);
         const auto [other, fresh] = taken.emplace(absolute(pattern.path(frame)), what);
         if (!fresh)
           throw Error(Exit::usage, fmt::format("{} and {} would both be {}; choose another with -o", other->second,
@@ -102,10 +105,11 @@ void FileSink::check_files(const Sequence& sequence, std::span<const std::int64_
 }
 
 void FileSink::write(std::int64_t frame, std::span<const quell_image> outputs) {
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
+  for (std::size_t i = 0; i < patterns_.size(); ++i)
     write_image(patterns_[i].path(frame), outputs[i], types_[i], options_);
-    if (!previews_[i].text().empty()) write_image(previews_[i].path(frame), outputs[i], types_[i], options_);
-  }
+  for (std::size_t i = 0; i < previews_.size(); ++i)
+    if (!previews_[i].text().empty())
+      write_image(previews_[i].path(frame), outputs[patterns_.size() + i], QUELL_DISPLAY, options_);
   written_.push_back(frame);
 }
 

@@ -15,17 +15,17 @@
 namespace quell {
 
 // Where each output goes. `wanted` is what -o said: "pattern" for the first output, "name=pattern" for any. The others,
-// and taps, are written beside the first under their own names. `preview` writes a .png beside each image that an eye
-// can read. Throws before anything is written: Error(Exit::usage) for a name that is no output, a file that is neither
+// and taps, are written beside the first under their own names; an output that is a preview, as a .png beside what it
+// shows. Throws before anything is written: Error(Exit::usage) for a name that is no output, a file that is neither
 // .exr nor .png, a pattern without a frame number (when there are several frames), two outputs to one file and a file
 // that the sequence reads; Error(Exit::resources) for a folder that cannot be written to.
 class FileSink : public FrameSink {
  public:
   FileSink(const Graph&, const Sequence&, std::span<const std::int64_t> frames, const std::vector<std::string>& wanted,
-           bool preview, WriteOptions);
+           WriteOptions);
   void write(std::int64_t frame, std::span<const quell_image> outputs) override;
 
-  // Patterns, in the order of the graph's outputs.
+  // Patterns, in the order of the graph's outputs but previews.
   const std::vector<FramePattern>& patterns() const { return patterns_; }
   // Frames of which all files are written. Not while a run goes on.
   const std::vector<std::int64_t>& written() const { return written_; }
@@ -34,9 +34,12 @@ class FileSink : public FrameSink {
   std::vector<std::string> choose(const std::vector<std::string>& wanted) const;  // a pattern for each output
   void check_files(const Sequence&, std::span<const std::int64_t> frames) const;
 
+  // Of outputs that are no previews, which stand before those.
   std::vector<int> types_;
   std::vector<std::string> names_;
-  std::vector<FramePattern> patterns_, previews_;
+  std::vector<FramePattern> patterns_;
+  std::vector<FramePattern> previews_;
+  std::vector<int> shown_;  // one a preview: what it shows
   std::vector<std::int64_t> written_;
   WriteOptions options_;
 };

@@ -3,6 +3,7 @@
 #include "apps/quell/file_sink.h"
 #include "apps/quell/interrupt.h"
 #include "apps/quell/options.h"
+#include "apps/quell/previews.h"
 #include "apps/quell/progress.h"
 #include "apps/quell/run_report.h"
 
@@ -27,7 +28,8 @@ struct RunArguments {
   SequenceOptions sequence;
   std::vector<std::string> output;
   std::string compression = "zip", progress = "auto", save_state, load_state, report, trace;
-  bool full = false, preview = false, quiet = false, times = false;
+  PreviewOptions preview;
+  bool full = false, quiet = false, times = false;
   int threads = 0, band_rows = 0;
   double max_memory = 0;  // GiB
   SimdOption simd;
@@ -81,15 +83,16 @@ int run(const RunArguments& a) {
   a.simd.apply();
   Commander commander(a.plugins);
   const auto sequence = commander.load(a.sequence);
-  const auto graph = commander.load(a.graph, sequence ? &*sequence : nullptr);
+  auto graph = commander.load(a.graph, sequence ? &*sequence : nullptr);
   if (!sequence || !graph) return commander.report();
+  add_previews(*graph, a.preview, commander);
   std::vector<std::string> roles;
   for (const auto& input : graph->inputs) roles.push_back(input.name);
   const auto frames = commander.open(*sequence, a.sequence, roles, a.threads, &cancel);
   const int code = commander.report();
   if (!frames || code) return code ? code : int(Exit::input);
 
-  FileSink sink(*graph, *sequence, frames->frames(), a.output, a.preview, write_options(a, *graph));
+  FileSink sink(*graph, *sequence, frames->frames(), a.output, write_options(a, *graph));
   if (!a.save_state.empty()) check_writable(a.save_state);
   if (!a.report.empty() && a.report != "-") check_writable(a.report);
   if (!a.trace.empty()) check_writable(a.trace);
@@ -148,7 +151,7 @@ void add_run(CLI::App& app, int& exit) {
       ->check(compression_option)
       ->type_name("NAME[:LEVEL]")
       ->capture_default_str();
-  sub->add_flag("--preview", a->preview, "Writes a PNG beside each image that an eye can read.");
+  a->preview.add_to(*sub);
   sub->add_option("--threads", a->threads,
                   "Threads; 0: every core that affinity and quotas grant. 1 reads, filters and "
                   "writes one after the other.")

@@ -29,6 +29,7 @@ std::string fingerprint_text(const Graph& g) {
   std::string text;
   for (const auto& input : g.inputs) text += fmt::format("input {}:{}\n", input.name, type_name(input.type));
   for (const auto& node : g.nodes) {
+    if (node.preview) continue;
     text += fmt::format("node {} = {} {}\n", node.name, node.type().name(), node.type().version());
     if (const auto params = node.instance.describe(); !params.empty()) text += "  set " + params + "\n";
     for (std::size_t p = 0; p < node.in.size(); ++p)

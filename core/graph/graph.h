@@ -34,6 +34,7 @@ struct GraphNode {
   std::vector<std::vector<Wire>> in;  // one an input port; empty: not connected
   std::vector<int> out_types;         // quell_type of each output, type variables bound
   TextPosition position;
+  bool preview = false;  // makes a picture of an output: no part of what the graph computes
   const NodeType& type() const { return instance.type(); }
 };
 
@@ -47,7 +48,8 @@ struct GraphOutput {
   std::string name;
   Wire wire;
   int type;
-  bool tap;  // asked for by --tap, not declared by the graph
+  bool tap;        // asked for, not declared by the graph
+  int shows = -1;  // of a preview: the output that it is a picture of
 };
 
 struct Graph {

@@ -67,6 +67,44 @@ TEST_F(Outputs, PreviewsAreEncoded) {
   EXPECT_NEAR(p.channels.at("G")[0], 1.055 * std::pow(linear, 1 / 2.4) - 0.055, 0.51 / 255);
 }
 
+TEST_F(Outputs, EveryTypeThatAnEyeCanReadHasAPreview) {
+  const auto r = run({"--preview", "--quiet", "--frames", "2", "--tap", "clamp.image", "-o", "p/x.exr"});
+  EXPECT_EQ(r.exit, 0) << r.err;
+  EXPECT_EQ(files("p"), (std::vector<std::string>{"clamp.image.0002.exr", "clamp.image.0002.png", "x.exr", "x.png"}));
+  const auto room =
+      quell({"run",      "svgf",          "room",    "--frames",   "1",     "--source", "width=32",
+             "--source", "height=24",     "--quiet", "--preview",  "--tap", "depth",    "--tap",
+             "id",       "--tap",         "motion",  "--tap",      "age",   "--tap",    "variance.variance",
+             "--tap",    "validity.taps", "-o",      "r/color.exr"});
+  EXPECT_EQ(room.exit, 0) << room.err;
+  for (const char* name : {"color", "depth.0001", "id.0001", "motion.0001", "age.0001", "variance.variance.0001"})
+    EXPECT_EQ(pixels(std::string("r/") + name + ".png").width, 32) << name;
+  EXPECT_FALSE(fs::exists(path("r/validity.taps.0001.png"))) << "five numbers and bits a pixel are no picture";
+}
+
+TEST_F(Outputs, PreviewsOfRadianceCanBeChosen) {
+  EXPECT_EQ(run({"--preview-graph", "exposed", "--preview-set", "operator=reinhard", "--quiet", "--frames", "1", "-o",
+                 "p/x.exr"})
+                .exit,
+            0);
+  const auto& shown = pixels("p/x.png").channels;
+  // Of a frame of one colour 0.3, 0.3, 0.3: its luminance becomes 0.18, and v / (1 + Y).
+  const double luminance = 0.18;
+  EXPECT_NEAR(shown.at("R")[5], 1.055 * std::pow(luminance / (1 + luminance), 1 / 2.4) - 0.055, 0.51 / 255);
+  EXPECT_EQ(run({"--preview-set", "stops=1", "--quiet", "--frames", "1", "-o", "s/x.exr"}).exit, 0);
+  EXPECT_NEAR(pixels("s/x.png").channels.at("R")[5], 1.055 * std::pow(0.6, 1 / 2.4) - 0.055, 0.51 / 255);
+  const auto r = run({"--preview-graph", "expose"});
+  EXPECT_EQ(r.exit, 2);
+  EXPECT_EQ(r.err,
+            "quell: error: --preview-graph expose: there is no such preview\n"
+            "  installed are: exposed, ocio, radiance; others are files, named with their folder or with .json\n");
+}
+
+TEST_F(Outputs, PreviewsAreNoPartOfTheState) {
+  EXPECT_EQ(run({"--preview", "--quiet", "--frames", "1", "--save-state", "s", "-o", "a/x.####.exr"}).exit, 0);
+  EXPECT_EQ(run({"--quiet", "--frames", "2", "--load-state", "s", "-o", "a/x.####.exr"}).exit, 0);
+}
+
 TEST_F(Outputs, EachCompressionWorks) {
   EXPECT_EQ(run({"--quiet", "--compression", "none", "-o", "none.####.exr"}).exit, 0);
   const auto reference = pixels("none.0002.exr");
