@@ -24,9 +24,11 @@ HWY_INLINE void sum_columns(const WindowRange& w, int y, int x0, int x1) {
   const int left = x0 - w.radius, right = x1 + w.radius;
   const int from = left < 0 ? 0 : left, to = right > w.width ? w.width : right;
   const int top = y < w.radius ? 0 : y - w.radius, bottom = y + w.radius < w.height ? y + w.radius + 1 : w.height;
-  for (int k = 0; k < 4; ++k)
-    for (int u = left; u < right; ++u)
-      if (u < from || u >= to) w.sums[k][u - left] = 0;
+  const int kinds = w.without_center ? 4 : 2;
+  for (int k = 0; k < kinds; ++k) {
+    for (int u = left; u < from; ++u) w.sums[k][u - left] = 0;
+    for (int u = to; u < right; ++u) w.sums[k][u - left] = 0;
+  }
   for (int u = from; u < to; u += kDoubles) {
     VD first = hn::Zero(dd), second = first, first_hole = first, second_hole = first;
     for (int v = top; v < bottom; ++v) {
@@ -38,7 +40,7 @@ HWY_INLINE void sum_columns(const WindowRange& w, int y, int x0, int x1) {
       second_hole = hn::MulAdd(value, value, second_hole);
     }
     const VD sums[4] = {first, second, first_hole, second_hole};
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < kinds; ++k)
       hn::BlendedStore(sums[k], hn::FirstN(dd, std::size_t(to - u)), dd, w.sums[k] + u - left);
   }
 }
@@ -50,7 +52,9 @@ HWY_INLINE void sum_columns(const WindowRange& w, int y, int x0, int x1) {
 HWY_INLINE void ranges(const WindowRange& w, int y, int x0, int x1) {
   sum_columns(w, y, x0, x1);
   const int rows = (y + w.radius < w.height ? y + w.radius + 1 : w.height) - (y < w.radius ? 0 : y - w.radius);
-  const VD least = hn::Set(dd, double(w.least_spread)), k = hn::Set(dd, double(w.k));
+  const VD least = hn::Set(dd, double(w.least_spread)), k = hn::Set(dd, double(w.k)), one = hn::Set(dd, 1.0);
+  // Away from the sides all windows have one size, and one division will do.
+  const VD inverse_inside = one / hn::Set(dd, double((2 * w.radius + 1) * rows - (w.without_center ? 1 : 0)));
   for (int i = 0; i < x1 - x0; i += kDoubles) {
     VD first = hn::Zero(dd), second = first;
     for (int t = 0; t <= 2 * w.radius; ++t) {
@@ -59,10 +63,11 @@ HWY_INLINE void ranges(const WindowRange& w, int y, int x0, int x1) {
       second = second + hn::LoadU(dd, w.sums[hole + 1] + i + t);
     }
     const VD x = hn::Iota(dd, double(x0 + i)), r = hn::Set(dd, double(w.radius));
-    const VD columns = hn::Min(x + r + hn::Set(dd, 1.0), hn::Set(dd, double(w.width))) - hn::Max(x - r, hn::Zero(dd));
+    const VD columns = hn::Min(x + r + one, hn::Set(dd, double(w.width))) - hn::Max(x - r, hn::Zero(dd));
     const VD n = columns * hn::Set(dd, double(rows)) - hn::Set(dd, w.without_center ? 1.0 : 0.0);
-    const VD divisor = hn::Max(n, hn::Set(dd, 1.0)), mean = first / divisor;
-    const VD variance = hn::NegMulAdd(mean, mean, second / divisor);
+    const bool inside = x0 + i >= w.radius && x0 + i + kDoubles + w.radius <= w.width;
+    const VD inverse = inside ? inverse_inside : one / hn::Max(n, one), mean = first * inverse;
+    const VD variance = hn::NegMulAdd(mean, mean, second * inverse);
     const VD sigma = hn::Sqrt(hn::Max(variance, hn::Zero(dd)));
     const VD reach = hn::IfThenElse(n < hn::Set(dd, 2.0), hn::Set(dd, w.without_center ? HUGE_VAL : 0.0),
                                     k * hn::Max(sigma, least * hn::Abs(mean)));

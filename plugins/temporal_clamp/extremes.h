@@ -20,8 +20,9 @@ HWY_INLINE void extremes(const WindowRange& w, float* const* columns, int y, int
   const int from = left < 0 ? 0 : left, to = right > w.width ? w.width : right;
   const int top = y < w.radius ? 0 : y - w.radius, bottom = y + w.radius < w.height ? y + w.radius + 1 : w.height;
   float *const least = columns[0], *const most = columns[1];
-  for (int u = left; u < right; ++u)
-    if (u < from || u >= to) least[u - left] = HUGE_VALF, most[u - left] = -HUGE_VALF;
+  const auto nothing = [&](int u) HWY_ATTR { least[u - left] = HUGE_VALF, most[u - left] = -HUGE_VALF; };
+  for (int u = left; u < from; ++u) nothing(u);
+  for (int u = to; u < right; ++u) nothing(u);
   for (int u = from; u < to; u += kLanes) {
     V low = all(HUGE_VALF), high = all(-HUGE_VALF);
     for (int v = top; v < bottom; ++v) {
