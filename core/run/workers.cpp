@@ -3,18 +3,15 @@
 
 #include "core/report/error.h"
 #include "core/run/cores.h"
+#include "core/sequence/pieces.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif
 
 #include <algorithm>
-#include <mutex>
-#include <string>
 
 namespace quell {
 
@@ -46,12 +43,7 @@ Workers::Workers(int threads, const std::atomic<bool>* cancel, Trace* trace)
 void Workers::run(const GraphNode& node, const void* resource, quell_tile tile, int tiled, int band_rows) {
   const int width = tile.out[tiled].width, height = tile.out[tiled].height;
   const int bands = (height + band_rows - 1) / band_rows;
-  // The first band that fails speaks for the node: those before it run whatever happens, so that it is always the same.
-  std::atomic<int> failed_band{bands};
-  std::mutex mutex;
-  std::string failure;
   const auto run_band = [&](int band) {
-    if (band > failed_band.load(std::memory_order_relaxed)) return;
     if (cancel_ && cancel_->load(std::memory_order_relaxed)) return;
     const FlushDenormals flush;
     quell_tile t = tile;
@@ -59,25 +51,15 @@ void Workers::run(const GraphNode& node, const void* resource, quell_tile tile, 
     t.y0 = band * band_rows, t.y1 = std::min(height, t.y0 + band_rows);
     quell_error error{};
     const Trace::Span span(trace_, {node.name, node.type().name(), tile.frame, t.y0, t.y1});
-    if (node.type().table().run(node.instance.data(), resource, &t, &error) == 0) return;
-    const std::scoped_lock lock(mutex);
-    if (band < failed_band)
-      failed_band = band, failure = fmt::format("{} ({}), frame {}, rows {}-{}: {}", node.name, node.type().name(),
-                                                tile.frame, t.y0, t.y1 - 1, error.text);
+    if (node.type().table().run(node.instance.data(), resource, &t, &error) != 0)
+      throw Error(Exit::plugin, fmt::format("{} ({}), frame {}, rows {}-{}: {}", node.name, node.type().name(),
+                                            tile.frame, t.y0, t.y1 - 1, error.text));
   };
   if (threads_ == 1 || bands == 1) {
     for (int band = 0; band < bands; ++band) run_band(band);
   } else {
-    arena_.execute([&] {
-      tbb::parallel_for(
-          tbb::blocked_range<int>(0, bands, 1),
-          [&](const auto& range) {
-            for (int band = range.begin(); band < range.end(); ++band) run_band(band);
-          },
-          tbb::simple_partitioner());
-    });
+    arena_.execute([&] { in_pieces(bands, run_band); });
   }
-  if (failed_band < bands) throw Error(Exit::plugin, failure);
   if (cancel_ && cancel_->load()) throw Error(Exit::interrupted, "interrupted");
 }
 
