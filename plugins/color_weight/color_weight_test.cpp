@@ -1,4 +1,5 @@
 // color_weight against its formula in double precision.
+#include "tests/support/falloffs.h"
 #include "tests/support/weight_oracle.h"
 
 #include <gtest/gtest.h>
@@ -27,6 +28,26 @@ TEST(ColorWeight, AnyNumberOfChannels) {
         },
         5e-6);
   }
+}
+
+// Three channels and one have kernels of their own; a sum of squares under the root is held to 1e-7 of itself.
+TEST(ColorWeight, EveryFalloff) {
+  for (const auto& name : falloff_names())
+    for (const int channels : {1, 3, 4}) {
+      SCOPED_TRACE(testing::Message() << name << " " << channels);
+      const auto image = noise_image(kWidth, kHeight, channels, 14);
+      Node node("color_weight");
+      node.set("sigma", 1.4f).set("scale", 0.5f).set("falloff", name).in("image", image);
+      check_weight(
+          node, kWidth, kHeight,
+          [&](int x, int y, int dx, int dy) {
+            double squared = 0;
+            for (int c = 0; c < channels; ++c)
+              squared += std::pow(double(image.at(c, x, y)) - image.at(c, x + dx, y + dy), 2);
+            return falloff(name, std::sqrt(squared) / 0.7);
+          },
+          5e-6);
+    }
 }
 
 }  // namespace

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <quell/abi.h>
+#include <quell/falloff.h>
 
 namespace quell {
 
 struct DepthFalloff {
+  Falloff falloff;
   float sigma, epsilon;
   bool relative;
 };

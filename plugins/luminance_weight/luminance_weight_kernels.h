@@ -2,6 +2,7 @@
 #pragma once
 
 #include <quell/abi.h>
+#include <quell/falloff.h>
 
 namespace quell {
 
@@ -9,8 +10,12 @@ struct RgbPlanes {
   const float *r, *g, *b;
 };
 
+struct LuminanceFalloff {
+  Falloff falloff;
+  float sigma, epsilon;
+};
+
 // variance may be null.
-void luminance_weigh(const quell_run&, RgbPlanes image, const float* variance, float sigma, float epsilon,
-                     float* exponent);
+void luminance_weigh(const quell_run&, RgbPlanes image, const float* variance, LuminanceFalloff, float* exponent);
 
 }  // namespace quell

@@ -1,4 +1,5 @@
 // luminance_weight against its formula in double precision.
+#include "tests/support/falloffs.h"
 #include "tests/support/weight_oracle.h"
 
 #include <gtest/gtest.h>
@@ -43,6 +44,26 @@ TEST(LuminanceWeight, InRadiance) {
         return std::exp(-std::abs(luminance(image, x, y) - luminance(image, x + dx, y + dy)) / 0.25);
       },
       kTolerance);
+}
+
+TEST(LuminanceWeight, EveryFalloff) {
+  const auto image = noise_image(kWidth, kHeight, 3, 10);
+  const auto variance = noise_image(kWidth, kHeight, 1, 11, -0.01f, 0.2f);
+  for (const auto& name : falloff_names())
+    for (const bool guided : {true, false}) {
+      SCOPED_TRACE(testing::Message() << name << " " << guided);
+      Node node("luminance_weight");
+      node.set("sigma", 0.9f).set("epsilon", 0.01f).set("falloff", name).in("image", image);
+      if (guided) node.in("variance", variance);
+      check_weight(
+          node, kWidth, kHeight,
+          [&](int x, int y, int dx, int dy) {
+            const double deviation = std::sqrt(std::max(0.0, double(variance.at(0, x, y))));
+            const double difference = std::abs(luminance(image, x, y) - luminance(image, x + dx, y + dy));
+            return falloff(name, difference / (guided ? 0.9 * deviation + 0.01 : 0.9));
+          },
+          kTolerance);
+    }
 }
 
 // With no variance at all and a bright image, equal pixels must still weigh 1.

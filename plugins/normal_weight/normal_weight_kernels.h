@@ -2,6 +2,7 @@
 #pragma once
 
 #include <quell/abi.h>
+#include <quell/falloff.h>
 
 namespace quell {
 
@@ -10,6 +11,7 @@ struct NormalPlanes {
 };
 
 void normal_weigh_power(const quell_run&, NormalPlanes, float power, float* exponent);
-void normal_weigh_angle(const quell_run&, NormalPlanes, float sigma, float* exponent);
+void normal_weigh_angle(const quell_run&, NormalPlanes, Falloff, float sigma, float* exponent);
+void normal_weigh_difference(const quell_run&, NormalPlanes, Falloff, float sigma, float* exponent);
 
 }  // namespace quell

@@ -1,4 +1,5 @@
 // normal_weight against its formula in double precision.
+#include "tests/support/falloffs.h"
 #include "tests/support/weight_oracle.h"
 
 #include <gtest/gtest.h>
@@ -51,6 +52,31 @@ TEST(NormalWeight, Angle) {
         formula(normal, [=](double c) { return std::exp(-std::pow(std::acos(c), 2) / (2.0 * sigma * sigma)); }),
         1e-6 + 2e-7 / (sigma * sigma));
   }
+}
+
+// Angles are held to 1e-7 of themselves where normals are nearly equal, and to 1e-6 elsewhere.
+TEST(NormalWeight, EveryFalloff) {
+  const auto normal = normal_image(kWidth, kHeight, 5, true);
+  for (const auto& name : falloff_names())
+    for (const bool angle : {true, false})
+      for (const float sigma : {0.02f, 0.4f, 2.0f}) {
+        SCOPED_TRACE(testing::Message() << name << " " << angle << " " << sigma);
+        Node node("normal_weight");
+        node.set("mode", angle ? "angle" : "difference").set("sigma", sigma).set("falloff", name).in("normal", normal);
+        check_weight(
+            node, kWidth, kHeight,
+            [&](int x, int y, int dx, int dy) {
+              if (is_miss(normal, x, y) || is_miss(normal, x + dx, y + dy))
+                return double(is_miss(normal, x, y) && is_miss(normal, x + dx, y + dy));
+              double squared = 0;
+              for (int c = 0; c < 3; ++c)
+                squared += std::pow(double(normal.at(c, x, y)) - normal.at(c, x + dx, y + dy), 2);
+              // Normals are of unit length to 1e-7 only, so the angle is taken from their difference, not their cosine.
+              const double chord = std::sqrt(squared), whole = 2 * std::asin(std::min(1.0, chord / 2));
+              return falloff(name, (angle ? std::min(whole, std::acos(0.0)) : chord) / sigma);
+            },
+            1e-5 + 2e-7 / (sigma * sigma));
+      }
 }
 
 // The miss test of a segment must not be fooled by single zero components.

@@ -5,12 +5,12 @@
 
 QUELL_SIMD_BEGIN
 
-// D² / 2 sigma², where D is the neighbour's distance from the centre's tangent plane, or that distance over the one to
+// D is the neighbour's distance from the centre's tangent plane, or that distance over the one to
 // the centre: the sine of the neighbour's elevation, which needs no scale. A miss is told by its normal alone: what its
 // position holds is anybody's guess.
-template <bool kSine>
+template <bool kSine, class F>
 HWY_INLINE void weigh_plane(const quell_run& run, PlaneGuides s, float sigma, float* exponent) {
-  const V scale = all(kLog2E / (2 * sigma * sigma));
+  const V scale = all(F::kUnitSquared / (sigma * sigma));
   each(run, exponent, [=](auto p) HWY_ATTR {
     const V x = p(s.x), y = p(s.y), z = p(s.z), nx = p(s.nx), ny = p(s.ny), nz = p(s.nz);
     const V miss = hn::VecFromMask(d, all_zero(nx, ny, nz));
@@ -22,16 +22,16 @@ HWY_INLINE void weigh_plane(const quell_run& run, PlaneGuides s, float sigma, fl
       if constexpr (kSine)
         squared = squared * reciprocal(hn::Max(mul_add(dx, dx, mul_add(dy, dy, dz * dz)), all(1e-30f)));
       const M here = hn::MaskFromVec(miss), there = all_zero(q(s.nx), q(s.ny), q(s.nz));
-      const V surfaces = hn::IfThenZeroElse(here, squared * scale);
+      const V surfaces = hn::IfThenZeroElse(here, F::of_square(squared * scale));
       return hn::IfThenElse(hn::Xor(here, there), all(HUGE_VALF), surfaces);
     };
   });
 }
-void sine(const quell_run& run, PlaneGuides s, float sigma, float* exponent) {
-  weigh_plane<true>(run, s, sigma, exponent);
+void sine(const quell_run& run, PlaneGuides s, Falloff falloff, float sigma, float* exponent) {
+  with_falloff(falloff, [&](auto f) HWY_ATTR { weigh_plane<true, decltype(f)>(run, s, sigma, exponent); });
 }
-void distance(const quell_run& run, PlaneGuides s, float sigma, float* exponent) {
-  weigh_plane<false>(run, s, sigma, exponent);
+void distance(const quell_run& run, PlaneGuides s, Falloff falloff, float sigma, float* exponent) {
+  with_falloff(falloff, [&](auto f) HWY_ATTR { weigh_plane<false, decltype(f)>(run, s, sigma, exponent); });
 }
 
 QUELL_SIMD_END
@@ -42,11 +42,11 @@ namespace quell {
 HWY_EXPORT(sine);
 HWY_EXPORT(distance);
 
-void plane_weigh_sine(const quell_run& run, PlaneGuides s, float sigma, float* exponent) {
-  HWY_DYNAMIC_DISPATCH(sine)(run, s, sigma, exponent);
+void plane_weigh_sine(const quell_run& run, PlaneGuides s, Falloff falloff, float sigma, float* exponent) {
+  HWY_DYNAMIC_DISPATCH(sine)(run, s, falloff, sigma, exponent);
 }
-void plane_weigh_distance(const quell_run& run, PlaneGuides s, float sigma, float* exponent) {
-  HWY_DYNAMIC_DISPATCH(distance)(run, s, sigma, exponent);
+void plane_weigh_distance(const quell_run& run, PlaneGuides s, Falloff falloff, float sigma, float* exponent) {
+  HWY_DYNAMIC_DISPATCH(distance)(run, s, falloff, sigma, exponent);
 }
 
 }  // namespace quell

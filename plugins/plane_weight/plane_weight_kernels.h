@@ -2,6 +2,7 @@
 #pragma once
 
 #include <quell/abi.h>
+#include <quell/falloff.h>
 
 namespace quell {
 
@@ -10,7 +11,7 @@ struct PlaneGuides {
   const float *nx, *ny, *nz;  // normal
 };
 
-void plane_weigh_sine(const quell_run&, PlaneGuides, float sigma, float* exponent);
-void plane_weigh_distance(const quell_run&, PlaneGuides, float sigma, float* exponent);
+void plane_weigh_sine(const quell_run&, PlaneGuides, Falloff, float sigma, float* exponent);
+void plane_weigh_distance(const quell_run&, PlaneGuides, Falloff, float sigma, float* exponent);
 
 }  // namespace quell

@@ -1,9 +1,11 @@
 // plane_weight against its formula in double precision.
+#include "tests/support/falloffs.h"
 #include "tests/support/weight_oracle.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 namespace quell::test {
 namespace {
@@ -24,7 +26,7 @@ struct Scene {
   bool miss(int x, int y) const {
     return normal.at(0, x, y) == 0 && normal.at(1, x, y) == 0 && normal.at(2, x, y) == 0;
   }
-  double weight(int x, int y, int dx, int dy, double sigma, bool sine) const {
+  double weight(int x, int y, int dx, int dy, double sigma, bool sine, const std::string& name = "gaussian") const {
     const bool here = miss(x, y), there = miss(x + dx, y + dy);
     if (here || there) return here && there;
     double away = 0, squared = 0;
@@ -33,8 +35,7 @@ struct Scene {
       away += normal.at(c, x, y) * d, squared += d * d;
     }
     if (squared == 0) return 1;
-    const double d2 = away * away / (sine ? squared : 1);
-    return std::exp(-d2 / (2 * sigma * sigma));
+    return falloff(name, std::sqrt(away * away / (sine ? squared : 1)) / sigma);
   }
 };
 
@@ -50,6 +51,21 @@ TEST(PlaneWeight, Formula) {
       check_weight(
           node, kWidth, kHeight, [&](int x, int y, int dx, int dy) { return scene.weight(x, y, dx, dy, sigma, sine); },
           1e-6 / (sigma * sigma));
+    }
+}
+
+// The distance itself is held to 1e-6; sigma is 0.5 and the steepest falloff, the rational, falls by 3.
+TEST(PlaneWeight, EveryFalloff) {
+  const Scene scene;
+  for (const auto& name : falloff_names())
+    for (const bool sine : {true, false}) {
+      SCOPED_TRACE(testing::Message() << name << " " << sine);
+      Node node("plane_weight");
+      node.set("mode", sine ? "sine" : "distance").set("sigma", 0.5f).set("falloff", name);
+      node.in("normal", scene.normal).in("position", scene.position);
+      check_weight(
+          node, kWidth, kHeight,
+          [&](int x, int y, int dx, int dy) { return scene.weight(x, y, dx, dy, 0.5, sine, name); }, 6e-6);
     }
 }
 
