@@ -46,7 +46,7 @@ class Wired {
       const int image_type = port.type == QUELL_ANY ? int(QUELL_RADIANCE) : port.type;
       auto& image = images_.emplace_back(typical_input(image_type, kWidth, kHeight, ++seed));
       if (image_type == QUELL_NORMAL && smooth) image = normal_image(kWidth, kHeight, 3);
-      if (image_type == QUELL_POSITION && smooth) image = noise_image(kWidth, kHeight, 3, 4, 5.0f, 5.01f);
+      if (image_type == QUELL_POSITION && smooth) image = noise_image(kWidth, kHeight, 3, 4, 5.0f, 5.1f);
       if (image_type == QUELL_RADIANCE && smooth) image = noise_image(kWidth, kHeight, 3, 7, 0.5f, 1.5f);
       if (image_type == QUELL_DEPTH && smooth) image = noise_image(kWidth, kHeight, 1, 8, 5.0f, 5.01f);
       if (image_type == QUELL_COUNT) image.fill(1);  // all pixels young: all are filtered
