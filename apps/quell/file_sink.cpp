@@ -34,6 +34,10 @@ FileSink::FileSink(const Graph& graph, const Sequence& sequence, std::span<const
   const auto texts = choose(wanted);
   for (std::size_t i = 0; i < texts.size(); ++i) {
     patterns_.emplace_back(texts[i]);
+    if (types_[i] == QUELL_VALUE) {
+      values_.push_back({names_[i], {}});
+      continue;
+    }
     if (frames.size() > 1 && !patterns_.back().numbered())
       throw Error(Exit::usage,
                   fmt::format("-o {}: every frame would go to this one file; put #### where the frame number belongs",
@@ -53,12 +57,13 @@ FileSink::FileSink(const Graph& graph, const Sequence& sequence, std::span<const
 std::vector<std::string> FileSink::choose(const std::vector<std::string>& wanted) const {
   const auto& names = names_;
   std::vector<std::string> texts(names.size());
+  const auto first = std::size_t(std::ranges::find_if(types_, [](int t) { return t != QUELL_VALUE; }) - types_.begin());
   if (names.empty()) throw Error(Exit::usage, "the graph has no outputs, so there is nothing to write");
   for (const auto& w : wanted) {
     // A '=' behind a slash belongs to a folder's or file's name.
     const auto equals = w.find('=');
     const bool named = equals < w.find('/');
-    std::size_t index = 0;
+    std::size_t index = first;
     if (named) {
       const auto name = w.substr(0, equals);
       const auto it = std::ranges::find(names, name);
@@ -67,6 +72,11 @@ std::vector<std::string> FileSink::choose(const std::vector<std::string>& wanted
                                              possibilities("it has", name, names)));
       index = std::size_t(it - names.begin());
     }
+    if (index == names.size() || types_[index] == QUELL_VALUE)
+      throw Error(Exit::usage,
+                  fmt::format("-o {}: {} a number a frame, which no file is written of: it is printed, and "
+                              "--report writes it",
+                              w, named ? fmt::format("output '{}' is", names[index]) : "each output is"));
     if (!texts[index].empty())
       throw Error(Exit::usage, fmt::format("-o {}: output '{}' already goes to {}; write NAME=PATTERN for another", w,
                                            names[index], texts[index]));
@@ -74,9 +84,9 @@ std::vector<std::string> FileSink::choose(const std::vector<std::string>& wanted
     if (texts[index].empty())
       throw Error(Exit::usage, fmt::format("-o '{}': names no file; as in -o 'out/color.####.exr'", w));
   }
-  if (texts[0].empty()) texts[0] = fmt::format("out/{}.####.exr", names[0]);
-  for (std::size_t i = 0; i < texts.size(); ++i)
-    if (texts[i].empty()) texts[i] = beside(texts[0], names[i]);
+  for (std::size_t i = first; i < texts.size(); ++i)
+    if (texts[i].empty() && types_[i] != QUELL_VALUE)
+      texts[i] = i == first ? fmt::format("out/{}.####.exr", names[i]) : beside(texts[first], names[i]);
   return texts;
 }
 
@@ -105,8 +115,12 @@ void FileSink::check_files(const Sequence& sequence, std::span<const std::int64_
 }
 
 void FileSink::write(std::int64_t frame, std::span<const quell_image> outputs) {
+  auto value = values_.begin();
   for (std::size_t i = 0; i < patterns_.size(); ++i)
-    write_image(patterns_[i].path(frame), outputs[i], types_[i], options_);
+    if (types_[i] == QUELL_VALUE)
+      (value++)->frames.emplace_back(frame, outputs[i].plane[0][0]);
+    else
+      write_image(patterns_[i].path(frame), outputs[i], types_[i], options_);
   for (std::size_t i = 0; i < previews_.size(); ++i)
     if (!previews_[i].text().empty())
       write_image(previews_[i].path(frame), outputs[patterns_.size() + i], QUELL_DISPLAY, options_);

@@ -122,10 +122,12 @@ int run(const RunArguments& a) {
   if (!a.quiet && a.style() != ProgressStyle::json) {
     fmt::print(stderr, "{}", summary_text(report));
     for (std::size_t i = 0; i < sink.patterns().size(); ++i)
-      fmt::print(stderr, "{}: {}\n", graph->outputs[i].name, sink.patterns()[i].text());
+      if (graph->outputs[i].type != QUELL_VALUE)
+        fmt::print(stderr, "{}: {}\n", graph->outputs[i].name, sink.patterns()[i].text());
+    fmt::print(stderr, "{}", values_text(sink.values()));
   }
   if (a.times) fmt::print(stderr, "{}", times_text(report));
-  if (!a.report.empty()) write_report(a.report, *graph, report);
+  if (!a.report.empty()) write_report(a.report, *graph, report, sink.values());
   if (!a.trace.empty()) trace.write(a.trace);
   return 0;
 }

@@ -8,6 +8,7 @@
 #include <sys/resource.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace quell {
@@ -21,6 +22,21 @@ double peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return double(usage.ru_maxrss) / 1024.0;
+}
+
+struct Summary {
+  double mean = 0;
+  float minimum = 0, maximum = 0;
+};
+Summary summary_of(const ReportedValue& v) {
+  Summary s;
+  if (v.frames.empty()) return s;
+  s.minimum = s.maximum = v.frames.front().second;
+  for (const auto& [frame, number] : v.frames) {
+    s.mean += double(number) / double(v.frames.size());
+    s.minimum = std::min(s.minimum, number), s.maximum = std::max(s.maximum, number);
+  }
+  return s;
 }
 
 double per_frame(const RunReport& r, double seconds) { return r.frames ? 1e3 * seconds / double(r.frames) : 0; }
@@ -48,7 +64,16 @@ std::string times_text(const RunReport& r) {
   return out + fmt::format("{:<28} {:<20} {:>10.2f}\n", "all", "", per_frame(r, sum));
 }
 
-void write_report(const std::string& path, const Graph& graph, const RunReport& r) {
+std::string values_text(std::span<const ReportedValue> values) {
+  std::string out;
+  for (const auto& v : values)
+    if (const auto s = summary_of(v); !v.frames.empty())
+      out += fmt::format("{}: {:.6g} on average, {:.6g} to {:.6g}\n", v.name, s.mean, s.minimum, s.maximum);
+  return out;
+}
+
+void write_report(const std::string& path, const Graph& graph, const RunReport& r,
+                  std::span<const ReportedValue> values) {
   nlohmann::ordered_json j;
   j["quell_report"] = 1;
   j["graph"] = graph.name;
@@ -68,6 +93,13 @@ void write_report(const std::string& path, const Graph& graph, const RunReport& 
   auto& nodes = j["nodes"] = nlohmann::ordered_json::array();
   for (const auto& n : r.nodes)
     nodes.push_back({{"name", n.name}, {"type", n.type}, {"ms_per_frame", per_frame(r, n.wall)}});
+  auto& numbers = j["values"] = nlohmann::ordered_json::object();
+  for (const auto& v : values) {
+    const auto s = summary_of(v);
+    auto& entry = numbers[v.name] = {{"mean", s.mean}, {"minimum", s.minimum}, {"maximum", s.maximum}};
+    auto& frames = entry["frames"] = nlohmann::ordered_json::object();
+    for (const auto& [frame, number] : v.frames) frames[std::to_string(frame)] = number;
+  }
   const std::string text = j.dump(2) + "\n";
   if (path == "-") {
     std::fputs(text.c_str(), stdout);

@@ -1,9 +1,11 @@
 // What a run took, for people and for machines.
 #pragma once
 
+#include "apps/quell/file_sink.h"
 #include "core/graph/graph.h"
 #include "core/run/executor.h"
 
+#include <span>
 #include <string>
 
 namespace quell {
@@ -12,7 +14,9 @@ namespace quell {
 std::string summary_text(const RunReport&);
 // A table: milliseconds a frame and share of each node.
 std::string times_text(const RunReport&);
-// The same as JSON, to a file or, for "-", to stdout. Throws Error(Exit::resources).
-void write_report(const std::string& path, const Graph&, const RunReport&);
+// A line for each output of type value: its mean and range over the frames.
+std::string values_text(std::span<const ReportedValue>);
+// All of that as JSON, to a file or, for "-", to stdout. Throws Error(Exit::resources).
+void write_report(const std::string& path, const Graph&, const RunReport&, std::span<const ReportedValue>);
 
 }  // namespace quell

@@ -202,6 +202,8 @@ TEST_F(Outputs, TheReportHasItsKeys) {
   EXPECT_TRUE(j.contains("graph"));
   EXPECT_TRUE(j.contains("simd"));
 
+  EXPECT_TRUE(j["values"].empty());
+
   const auto out = run({"--quiet", "--report", "-"});
   EXPECT_EQ(json::parse(out.out)["frames"], 3);
   EXPECT_EQ(out.err, "");
@@ -214,6 +216,37 @@ TEST_F(Outputs, TimesAreATable) {
   EXPECT_EQ(r.err.find("node "), 0u) << r.err;
   EXPECT_NE(r.err.find("outlier_clamp"), std::string::npos) << r.err;
   EXPECT_EQ(r.out, "");
+}
+
+// A number a frame is no image: it goes to the report.
+TEST_F(Outputs, ValuesAreReported) {
+  write("values.json", R"({"quell": 1, "inputs": {"color": "radiance"},
+    "nodes": {"clamp": {"type": "outlier_clamp", "in": {"image": "color"}},
+              "energy": {"type": "energy_removed", "in": {"before": "color", "after": "clamp"}},
+              "about": {"type": "statistics", "in": {"image": "color"}}},
+    "outputs": {"removed": "energy.energy", "color": "clamp"}})");
+  const std::vector<std::string> args{"run", "values.json", "shot.json", "--report", "report.json"};
+  const auto r = quell(args + std::vector<std::string>{"--tap", "about.mean", "--tap", "about.invalid"});
+  ASSERT_EQ(r.exit, 0) << r.err;
+  EXPECT_NE(r.err.find("\nremoved: "), std::string::npos) << r.err;
+  EXPECT_EQ(files("out"), (std::vector<std::string>{"color.0001.exr", "color.0002.exr", "color.0003.exr"}));
+  const auto j = json::parse(read("report.json"))["values"];
+  ASSERT_EQ(j.size(), 3u) << j;
+  const auto& mean = j["about.mean"];
+  EXPECT_EQ(mean["frames"].size(), 3u);
+  EXPECT_EQ(mean["minimum"], mean["frames"]["1"]);
+  EXPECT_EQ(mean["maximum"], mean["frames"]["3"]);
+  EXPECT_NEAR(
+      mean["mean"].get<double>(),
+      (mean["frames"]["1"].get<double>() + mean["frames"]["2"].get<double>() + mean["frames"]["3"].get<double>()) / 3,
+      1e-6);
+  EXPECT_EQ(j["about.invalid"]["maximum"], 0);
+  const auto refused = quell(args + std::vector<std::string>{"-o", "removed=x.####.exr"});
+  EXPECT_EQ(refused.exit, 2);
+  EXPECT_NE(refused.err.find("quell: error: -o removed=x.####.exr: output 'removed' is a number a frame, which no file "
+                             "is written of: it is printed, and --report writes it\n"),
+            std::string::npos)
+      << refused.err;
 }
 
 }  // namespace
