@@ -1,0 +1,201 @@
+// What every spatial filter of images keeps, whatever it does: found from the tables alone, so that a new one is held
+// to this by being there. A spatial filter gives back an image like the one that it takes and needs nothing else.
+#include "tests/support/run_node.h"
+#include "tests/support/typical_input.h"
+#include "tests/support/weight_oracle.h"
+
+#include <gtest/gtest.h>
+#include <quell/types.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quell::test {
+namespace {
+
+constexpr int kWidth = 97, kHeight = 31;
+
+// The input that is filtered, or nullptr: the first output passes an image of its own type, and no other image is
+// required.
+const quell_port* filtered(const NodeType& type) {
+  if (type.is_weight() || type.outputs().empty()) return nullptr;
+  const auto& out = type.outputs()[0];
+  if (out.passes < 0 || (out.type != QUELL_ANY && out.type != QUELL_RADIANCE)) return nullptr;
+  const auto& in = type.inputs()[std::size_t(out.passes)];
+  if (in.type != out.type) return nullptr;
+  for (const auto& other : type.inputs())
+    if (&other != &in && other.type != QUELL_WEIGHT && !(other.flags & (QUELL_OPTIONAL | QUELL_LIST))) return nullptr;
+  return &in;
+}
+
+std::vector<std::string> filters() {
+  std::vector<std::string> list;
+  for (const auto* type : registry().all())
+    if (filtered(*type)) list.emplace_back(type->name());
+  return list;
+}
+
+// Light with fireflies and black pixels; no two pixels alike.
+Image picture(std::uint32_t seed) {
+  auto image = noise_image(kWidth, kHeight, 3, seed, 0.01f, 1.0f);
+  const auto dice = noise_image(kWidth, kHeight, 1, seed + 1);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      for (int c = 0; c < 3; ++c)
+        image.at(c, x, y) *= dice.at(0, x, y) > 0.97f ? 300.0f : dice.at(0, x, y) < 0.1f ? 1e-3f : 1.0f;
+  return image;
+}
+
+// Every choice that the node offers, by itself; other parameters at their defaults.
+using Setting = std::pair<std::string, std::string>;
+std::vector<Setting> settings(const NodeType& type) {
+  std::vector<Setting> list{{"", ""}};
+  for (const auto& p : type.params())
+    for (int c = 0; p.kind == QUELL_CHOICE && c < p.choice_count; ++c) list.emplace_back(p.name, p.choices[c]);
+  return list;
+}
+
+class SpatialFilter : public testing::TestWithParam<std::string> {
+ protected:
+  const NodeType& type() const { return *registry().find(GetParam()); }
+  Image run(const Image& image, const Setting& setting) const {
+    Node node(GetParam());
+    if (!setting.first.empty()) node.set(setting.first, setting.second);
+    return std::move(node.in(filtered(type())->name, image).run()[0]);
+  }
+  template <class Check>
+  void each_setting(Check check) const {
+    for (const auto& setting : settings(type())) {
+      SCOPED_TRACE(setting.first + " " + setting.second);
+      check(setting);
+    }
+  }
+};
+
+// P1 and P2: weights sum to 1, so what is constant stays.
+TEST_P(SpatialFilter, LeavesAConstantImageAlone) {
+  each_setting([&](const Setting& s) {
+    for (const float value : {0.0f, 0.7f, 4096.0f}) {
+      const auto out = run(constant_image(kWidth, kHeight, 3, value), s);
+      EXPECT_LE(largest_difference(out, [&](int, int, int) { return double(value); }), 2e-6 * double(value));
+    }
+  });
+}
+
+// P3: no weight is negative, so nothing leaves the range of the input.
+TEST_P(SpatialFilter, StaysInTheRangeOfItsInput) {
+  const auto image = picture(101);
+  each_setting([&](const Setting& s) {
+    const auto out = run(image, s);
+    for (int c = 0; c < 3; ++c) {
+      float low = HUGE_VALF, high = 0;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+          low = std::min(low, image.at(c, x, y)), high = std::max(high, image.at(c, x, y));
+      // Where a colour is scaled as a whole, a channel may fall below all others of its kind, but not below 0.
+      const bool scales = type().inputs()[0].type == QUELL_RADIANCE;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          ASSERT_GE(out.at(c, x, y), scales ? 0 : low * (1 - 1e-5f)) << x << "," << y;
+          ASSERT_LE(out.at(c, x, y), high * (1 + 1e-5f)) << x << "," << y;
+        }
+    }
+  });
+}
+
+// P4: twice the light in is twice the light out; powers of two do not round.
+TEST_P(SpatialFilter, FollowsTheExposure) {
+  const auto image = picture(103);
+  for (const float scale : {0.25f, 8.0f}) {
+    auto bright = image.copy();
+    for (int c = 0; c < 3; ++c)
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) bright.at(c, x, y) *= scale;
+    each_setting([&](const Setting& s) {
+      const auto out = run(image, s), brighter = run(bright, s);
+      for (int c = 0; c < 3; ++c)
+        for (int y = 0; y < kHeight; ++y)
+          for (int x = 0; x < kWidth; ++x) ASSERT_EQ(brighter.at(c, x, y), scale * out.at(c, x, y)) << x << "," << y;
+    });
+  }
+}
+
+// P5: kernels and windows are symmetric, so a flipped image is filtered like the image; but where space is cut into
+// clusters, these must fall on each other.
+TEST_P(SpatialFilter, CommutesWithFlips) {
+  const auto whole = picture(105);
+  const int width = kWidth / 8 * 8, height = kHeight / 8 * 8;
+  for (const bool horizontal : {true, false}) {
+    const auto flipped = [&](int x, int y) {
+      return horizontal ? std::pair(width - 1 - x, y) : std::pair(x, height - 1 - y);
+    };
+    Image image(width, height, 3), mirror(width, height, 3);
+    for (int c = 0; c < 3; ++c)
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+          image.at(c, x, y) = whole.at(c, x, y);
+          const auto [u, v] = flipped(x, y);
+          mirror.at(c, u, v) = whole.at(c, x, y);
+        }
+    each_setting([&](const Setting& s) {
+      const auto out = run(image, s), other = run(mirror, s);
+      for (int c = 0; c < 3; ++c)
+        for (int y = 0; y < height; ++y)
+          for (int x = 0; x < width; ++x) {
+            const auto [u, v] = flipped(x, y);
+            // The order of the sums differs.
+            ASSERT_NEAR(other.at(c, u, v), out.at(c, x, y), 1e-5 * std::abs(out.at(c, x, y)) + 1e-6) << x << "," << y;
+          }
+    });
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SpatialFilter, testing::ValuesIn(filters()), [](const auto& i) { return i.param; });
+
+// P6: a filter under a weight that shuts out every neighbour gives its input.
+class WeightedFilter : public testing::TestWithParam<std::string> {};
+TEST_P(WeightedFilter, IsTheIdentityWhereAllIdsDiffer) {
+  const auto image = noise_image(kWidth, kHeight, 3, 107);
+  Image id(kWidth, kHeight, 1);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) id.bits(0, y)[x] = std::uint32_t(y * kWidth + x);
+  const auto& type = *registry().find(GetParam());
+  Node by_id("id_weight"), node(GetParam());
+  by_id.in("id", id);
+  node.in(filtered(type)->name, image);
+  for (const auto& port : type.inputs())
+    if (port.type == QUELL_WEIGHT) node.in(port.name, by_id);
+  const auto out = node.run();
+  EXPECT_LE(largest_difference(out[0], [&](int c, int x, int y) { return double(image.at(c, x, y)); }), 3e-7);
+}
+std::vector<std::string> weighted() {
+  auto list = filters();
+  std::erase_if(list, [](const std::string& name) {
+    return std::ranges::none_of(registry().find(name)->inputs(), [](const auto& p) { return p.type == QUELL_WEIGHT; });
+  });
+  return list;
+}
+INSTANTIATE_TEST_SUITE_P(All, WeightedFilter, testing::ValuesIn(weighted()), [](const auto& i) { return i.param; });
+
+// The gain of white noise through N levels of the plain B3 kernel, §3.2 of the wavelet's theory: Σ k² of the cascade.
+TEST(Cascade, HasTheGainsOfB3) {
+  const double gains[] = {0.0747681, 0.0152459, 0.00364327};
+  Image impulse(129, 129, 1);
+  impulse.at(0, 64, 64) = 1;
+  for (int level = 0; level < 3; ++level) {
+    Node node("atrous");
+    impulse = node.set("step", 1 << level).in("image", impulse).run("image");
+    double sum = 0, gain = 0, spread = 0;
+    for (int y = 0; y < 129; ++y)
+      for (int x = 0; x < 129; ++x) {
+        const double k = impulse.at(0, x, y);
+        sum += k, gain += k * k, spread += k * (x - 64) * (x - 64);
+      }
+    EXPECT_NEAR(sum, 1, 1e-6) << level;
+    EXPECT_NEAR(gain / gains[level], 1, 1e-5) << level;
+    EXPECT_NEAR(spread, (std::pow(4.0, level + 1) - 1) / 3, 1e-4) << level;
+  }
+}
+
+}  // namespace
+}  // namespace quell::test
