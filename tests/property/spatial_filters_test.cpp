@@ -72,12 +72,12 @@ class SpatialFilter : public testing::TestWithParam<std::string> {
   }
 };
 
-// P1 and P2: weights sum to 1, so what is constant stays.
+// P1 and P2: weights sum to 1, so what is constant stays, but for the rounding of hundreds of taps.
 TEST_P(SpatialFilter, LeavesAConstantImageAlone) {
   each_setting([&](const Setting& s) {
     for (const float value : {0.0f, 0.7f, 4096.0f}) {
       const auto out = run(constant_image(kWidth, kHeight, 3, value), s);
-      EXPECT_LE(largest_difference(out, [&](int, int, int) { return double(value); }), 2e-6 * double(value));
+      EXPECT_LE(largest_difference(out, [&](int, int, int) { return double(value); }), 7e-6 * double(value));
     }
   });
 }
