@@ -1,5 +1,5 @@
-// SVGF over the built-in room: how much it gains, that it leaves neither blotches nor ghosts, and that neither threads,
-// bands nor chunks change a bit.
+// SVGF and the recommended graph over the built-in room: how much they gain, that neither leaves blotches nor ghosts,
+// and that neither threads, bands nor chunks change a bit.
 #include "tests/support/paths.h"
 #include "tests/support/run_node.h"
 #include "tests/support/run_sequence.h"
@@ -47,8 +47,8 @@ double psnr(const Image& x, const Image& a, const Image& b, Use use) {
   return -10 * std::log10(std::max(sum, 1e-12) / double(count));
 }
 
-TEST(Room, SvgfGainsEightDecibels) {
-  const auto result = run_sequence(room("0-15"));
+TEST(Room, SvgfGainsEightDecibelsAndRecommendedMore) {
+  const auto result = run_sequence(room("0-15")), recommended = run_sequence(room("0-15", "recommended"));
   for (const std::int64_t frame : {8, 15}) {
     const auto noisy = trace(frame, 1, 0, {"color"});
     const auto a = trace(frame, 64, 1001, {"color"}), b = trace(frame, 64, 1002, {"color", "motion", "id"});
@@ -58,6 +58,9 @@ TEST(Room, SvgfGainsEightDecibels) {
     RecordProperty("before_" + std::to_string(frame), std::to_string(before));
     RecordProperty("after_" + std::to_string(frame), std::to_string(after));
     EXPECT_GE(after, before + 8) << "frame " << frame;
+    const double best = psnr(recommended.images.at(frame)[0], a[0], b[0], everywhere);
+    RecordProperty("recommended_" + std::to_string(frame), std::to_string(best));
+    EXPECT_GE(best, after + 0.8) << "frame " << frame;
 
     // A ghost lies where something else was a frame ago: pixels whose motion leads to another object. They are young,
     // so they are worse than the rest, but still far better than the input.
@@ -67,13 +70,14 @@ TEST(Room, SvgfGainsEightDecibels) {
                 v = int(std::floor(float(y) + 0.5f + b[1].at(1, x, y)));
       return u >= 0 && v >= 0 && u < kWidth && v < kHeight && before_ids[0].bits(0, v)[u] != b[2].bits(0, y)[x];
     };
-    EXPECT_GE(psnr(result.images.at(frame)[0], a[0], b[0], uncovered), psnr(noisy[0], a[0], b[0], uncovered) + 5)
-        << "frame " << frame;
+    for (const auto* run : {&result, &recommended})
+      EXPECT_GE(psnr(run->images.at(frame)[0], a[0], b[0], uncovered), psnr(noisy[0], a[0], b[0], uncovered) + 5)
+          << "frame " << frame;
   }
 }
 
 TEST(Room, ThreadsAndBandsChangeNoBit) {
-  for (const char* graph : {"svgf", "games202"}) {
+  for (const char* graph : {"svgf", "recommended", "games202"}) {
     auto run = room("0-3", graph);
     run.options.threads = 1;
     const auto expected = run_sequence(run);
@@ -91,19 +95,21 @@ TEST(Room, ThreadsAndBandsChangeNoBit) {
 
 TEST(Room, ChunksChangeNoBit) {
   const auto path = std::filesystem::temp_directory_path() / ("quell_room_" + std::to_string(getpid()));
-  const auto whole = run_sequence(room("0-9"));
-  auto first = room("0-4"), second = room("5-9");
-  first.options.save_state = path;
-  second.options.load_state = path;
-  const auto a = run_sequence(first), b = run_sequence(second);
-  std::filesystem::remove(path);
-  EXPECT_EQ(b.report.resets, 0u);
-  for (std::int64_t f = 0; f < 10; ++f)
-    EXPECT_TRUE(same_bits(whole.images.at(f)[0], (f < 5 ? a : b).images.at(f)[0])) << f;
+  for (const char* graph : {"svgf", "recommended"}) {
+    const auto whole = run_sequence(room("0-9", graph));
+    auto first = room("0-4", graph), second = room("5-9", graph);
+    first.options.save_state = path;
+    second.options.load_state = path;
+    const auto a = run_sequence(first), b = run_sequence(second);
+    std::filesystem::remove(path);
+    EXPECT_EQ(b.report.resets, 0u);
+    for (std::int64_t f = 0; f < 10; ++f)
+      EXPECT_TRUE(same_bits(whole.images.at(f)[0], (f < 5 ? a : b).images.at(f)[0])) << graph << " " << f;
+  }
 }
 
 TEST(Room, EveryImageIsFinite) {
-  for (const char* graph : {"svgf", "games202"})
+  for (const char* graph : {"svgf", "recommended", "games202"})
     for (const auto& [frame, images] : run_sequence(room("0-2", graph)).images)
       for (const auto& image : images)
         for (int c = 0; c < image.channels(); ++c)
