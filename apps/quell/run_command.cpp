@@ -149,7 +149,7 @@ void add_run(CLI::App& app, int& exit) {
   sub->add_flag("--float", a->full, "Writes 32-bit floats in place of halves.");
   sub->add_option("--compression", a->compression,
                   "Of EXR files. A level may follow: zip:9 (1 to 12, time for size), dwaa:100 (0 to 100000, size for "
-                  "quality). b44, dwaa and pxr24 lose some precision.")
+                  "quality). b44, dwaa and, of floats, pxr24 lose precision.")
       ->check(compression_option)
       ->type_name("NAME[:LEVEL]")
       ->capture_default_str();

@@ -4,15 +4,16 @@
 #include "core/report/error.h"
 #include "core/run/session.h"
 #include "core/run/state.h"
+#include "core/sequence/job_time.h"
+#include "core/sequence/pieces.h"
 
 #include <fmt/format.h>
 
 #include <time.h>
 
-#include <chrono>
-#include <future>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace quell {
 
@@ -24,42 +25,7 @@ double now(clockid_t clock) {
   return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
-// Adds wall and CPU time of its life to two sums. The CPU time is the thread's.
-class Stopwatch {
- public:
-  Stopwatch(double& wall, double& cpu)
-      : wall_(wall), cpu_(cpu), wall0_(now(CLOCK_MONOTONIC)), cpu0_(now(CLOCK_THREAD_CPUTIME_ID)) {}
-  ~Stopwatch() {
-    wall_ += now(CLOCK_MONOTONIC) - wall0_;
-    cpu_ += now(CLOCK_THREAD_CPUTIME_ID) - cpu0_;
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double &wall_, &cpu_;
-  double wall0_, cpu0_;
-};
-
-// A job on a thread of its own, at most one at a time. Waits when destroyed; an error comes out of wait().
-class Background {
- public:
-  ~Background() {
-    if (job_.valid()) job_.wait();
-  }
-  template <class F>
-  void start(F&& f) {
-    wait();
-    job_ = std::async(std::launch::async, std::forward<F>(f));
-  }
-  bool started() const { return job_.valid(); }
-  void wait() {
-    if (job_.valid()) job_.get();
-  }
-
- private:
-  std::future<void> job_;
-};
+double seconds(std::int64_t nanoseconds) { return 1e-9 * double(nanoseconds); }
 
 bool equal(const std::vector<quell_shape>& a, const std::vector<quell_shape>& b) {
   return std::ranges::equal(a, b, [](const auto& x, const auto& y) {
@@ -69,12 +35,8 @@ bool equal(const std::vector<quell_shape>& a, const std::vector<quell_shape>& b)
 
 class Run {
  public:
-  Run(const Graph& graph, FrameSource& source, FrameSink& sink, const RunOptions& options)
-      : graph_(graph),
-        source_(source),
-        sink_(sink),
-        options_(options),
-        workers_(options.threads, options.cancel, options.trace) {
+  Run(const Graph& graph, FrameSource& source, FrameSink& sink, const RunOptions& options, Workers& workers)
+      : graph_(graph), source_(source), sink_(sink), options_(options), workers_(workers) {
     for (const auto& input : graph.inputs) roles_.push_back(input.name);
     for (const auto& node : graph.nodes) report_.nodes.push_back({node.name, std::string(node.type().name()), 0});
     report_.threads = workers_.threads();
@@ -95,6 +57,8 @@ class Run {
     writer_.wait();
     if (!options_.save_state.empty()) save_state(options_.save_state, graph_, *session_, frames.back());
     report_.wall = now(CLOCK_MONOTONIC) - begin;
+    report_.read_wall = seconds(reading_.wall), report_.read_cpu = seconds(reading_.cpu);
+    report_.write_wall = seconds(writing_.wall), report_.write_cpu = seconds(writing_.cpu);
     // Of the process, less what reading and writing took.
     report_.filter_cpu = now(CLOCK_PROCESS_CPUTIME_ID) - cpu - report_.read_cpu - report_.write_cpu;
     return std::move(report_);
@@ -156,7 +120,7 @@ class Run {
 
   // Reads a frame, unless its size differs from the plan's: then only its shapes are kept.
   void read(std::int64_t frame, const std::vector<quell_image>& images) {
-    const Stopwatch watch(report_.read_wall, report_.read_cpu);
+    const JobSpan job(reading_);
     const Trace::Span span(options_.trace, {"read", "file", frame}, Trace::kReading);
     auto shapes = source_.shapes(frame, roles_);
     if (equal(shapes, session_->input_shapes()))
@@ -166,7 +130,7 @@ class Run {
   }
 
   void write(std::int64_t frame, const std::vector<quell_image>& outputs) {
-    const Stopwatch watch(report_.write_wall, report_.write_cpu);
+    const JobSpan job(writing_);
     const Trace::Span span(options_.trace, {"write", "file", frame}, Trace::kWriting);
     sink_.write(frame, outputs);
   }
@@ -188,9 +152,10 @@ class Run {
   FrameSource& source_;
   FrameSink& sink_;
   const RunOptions& options_;
-  Workers workers_;
+  Workers& workers_;
   std::vector<std::string> roles_;
   std::vector<double> node_times_;  // of the frame being filtered
+  JobTime reading_, writing_;
   RunReport report_;
   std::unique_ptr<Session> session_;
   std::optional<std::vector<quell_shape>> pending_shapes_;
@@ -200,7 +165,8 @@ class Run {
 }  // namespace
 
 RunReport run_graph(const Graph& graph, FrameSource& source, FrameSink& sink, const RunOptions& options) {
-  return Run(graph, source, sink, options).run();
+  Workers workers(options.threads, options.cancel, options.trace);
+  return workers.inside([&] { return Run(graph, source, sink, options, workers).run(); });
 }
 
 }  // namespace quell

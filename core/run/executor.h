@@ -21,7 +21,7 @@ namespace quell {
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
-  // May run on a thread of its own while the next frame is filtered; one call at a time, in the order of the frames.
+  // May run on another thread while the next frame is filtered; one call at a time, in the order of the frames.
   virtual void write(std::int64_t frame, std::span<const quell_image> outputs) = 0;
 };
 
@@ -59,7 +59,7 @@ struct RunReport {
   std::size_t frames = 0;
   int threads = 0;
   double wall = 0;                                        // seconds, all
-  double read_wall = 0, filter_wall = 0, write_wall = 0;  // each on its own clock; they overlap
+  double read_wall = 0, filter_wall = 0, write_wall = 0;  // from begin to end; they overlap
   double read_cpu = 0, filter_cpu = 0, write_cpu = 0;
   int frames_in_flight = 0;           // being read, filtered and written at once; the least of all plans
   std::size_t plan_bytes = 0;         // images of the largest plan

@@ -18,6 +18,12 @@ class Workers {
   explicit Workers(int threads, const std::atomic<bool>* cancel = nullptr, Trace* trace = nullptr);
   int threads() const { return threads_; }
 
+  // Calls f on one of the threads: what it starts by TBB runs on all of them, and on no other.
+  template <class F>
+  auto inside(F f) {
+    return arena_.execute(f);
+  }
+
   // Runs a node over all rows of output `tiled`, in bands. `tile` has inputs, outputs and frame. Throws
   // Error(Exit::plugin) with node, frame and rows when the node fails, Error(Exit::interrupted) when the run was
   // cancelled.

@@ -2,6 +2,8 @@
 #include "core/sequence/conversion.h"
 
 #include "core/report/error.h"
+#include "core/sequence/conversion_kernels.h"
+#include "core/sequence/pieces.h"
 
 #include <quell/types.h>
 
@@ -18,6 +20,8 @@ namespace {
 constexpr float kLargestHalf = 65504.0f;
 // Renderers without an infinity write this, or more, as the depth of the sky (Cycles: 1e10 exactly).
 constexpr float kFarInFiles = 1e10f;
+constexpr int kPieceRows = 32;
+constexpr float kShortest = 1e-6f;
 // Eight bits cannot say "no direction": the nearest to 0 that they hold has length 0.007.
 constexpr float kShortestEncoded = 1.0f / 64.0f;
 
@@ -61,13 +65,8 @@ class Rays {
 class Converter {
  public:
   Converter(const quell_image& image, int type, const Window& window, const Conversion& conversion,
-            const FrameMatrices* camera, Repairs& repairs)
-      : image_(image),
-        type_(type),
-        window_(window),
-        c_(conversion),
-        repairs_(repairs),
-        missing_(type_info(type)->missing) {
+            const FrameMatrices* camera)
+      : image_(image), type_(type), window_(window), c_(conversion), missing_(type_info(type)->missing) {
     if (c_.needs_camera() && !invert(camera->world_to_view, view_to_world_))
       throw Error(Exit::input, "the camera's world-to-view matrix has no inverse");
     if (c_.distance) rays_.emplace(*camera);
@@ -80,7 +79,7 @@ class Converter {
     per_pixel_ = c_.miss || c_.display || c_.encoded || c_.reciprocal || c_.needs_camera();
   }
 
-  void row(int y) {
+  void row(int y, Repairs& repairs) const {
     std::vector<float*> planes;
     for (int c = 0; c < image_.channels; ++c) planes.push_back(image_.plane[c] + y * image_.pitch);
     const Row row(planes);
@@ -91,7 +90,7 @@ class Converter {
           continue;
         }
         transform(row, x, y);
-        repair(row, x);
+        repair(row, x, repairs);
       }
       return;
     }
@@ -99,24 +98,24 @@ class Converter {
     for (std::size_t i = 0; i < row.size(); ++i)
       if (factor_[i] != 1.0f)
         for (int x = window_.x0; x < window_.x1; ++x) row[i][x] *= factor_[i];
-    const bool repaired_anyway = type_ == QUELL_NORMAL || type_ == QUELL_DEPTH;
-    if (!repaired_anyway && is_clean(row)) return;
-    for (int x = window_.x0; x < window_.x1; ++x) repair(row, x);
+    const auto n = std::size_t(window_.x1 - window_.x0);
+    if (type_ == QUELL_DEPTH) {
+      repairs.non_finite += std::int64_t(far_where_nothing_is(row[0] + window_.x0, n, kFarInFiles));
+      return;
+    }
+    const bool signs = !never_negative(type_);
+    if (std::ranges::all_of(row, [&](const float* p) { return all_clean(p + window_.x0, n, signs); })) {
+      if (type_ == QUELL_NORMAL) {
+        float* const xyz[] = {row[0] + window_.x0, row[1] + window_.x0, row[2] + window_.x0};
+        to_unit_length(xyz, n, shortest());
+      }
+      return;
+    }
+    for (int x = window_.x0; x < window_.x1; ++x) repair(row, x, repairs);
   }
 
  private:
-  // All finite, and no sign bit where nothing may be negative.
-  bool is_clean(Row row) const {
-    constexpr std::uint32_t exponent = 0x7F800000u;
-    const std::uint32_t sign = never_negative(type_) ? 0x80000000u : 0u;
-    bool clean = true;
-    for (const float* p : row)
-      for (int x = window_.x0; x < window_.x1; ++x) {
-        const auto bits = std::bit_cast<std::uint32_t>(p[x]);
-        clean &= ((bits & exponent) != exponent) & ((bits & sign) == 0);
-      }
-    return clean;
-  }
+  double shortest() const { return c_.encoded ? kShortestEncoded : kShortest; }
 
   bool is_miss(Row row, int x) const {
     if (c_.miss && std::ranges::all_of(row, [&](const float* p) { return p[x] == *c_.miss; })) return true;
@@ -151,11 +150,11 @@ class Converter {
     }
   }
 
-  void repair(Row row, int x) {
+  void repair(Row row, int x, Repairs& repairs) const {
     if (type_ == QUELL_DEPTH) {
       // An infinite depth is a miss that needs no repair.
       const float z = row[0][x];
-      if (std::isnan(z)) ++repairs_.non_finite;
+      if (std::isnan(z)) ++repairs.non_finite;
       if (!std::isfinite(z) || z == 0.0f || z >= kFarInFiles) row[0][x] = kFar;
       return;
     }
@@ -167,7 +166,7 @@ class Converter {
     }
     const bool color = type_ == QUELL_RADIANCE || type_ == QUELL_ALBEDO;
     if (!finite) {
-      ++repairs_.non_finite;
+      ++repairs.non_finite;
       for (float* p : row) {
         if (!color || nan) {
           p[x] = missing_;
@@ -178,14 +177,14 @@ class Converter {
       if (!color || nan) return;
     }
     if (negative && never_negative(type_)) {
-      repairs_.negative += finite;  // counted once, as what is worse
+      repairs.negative += finite;  // counted once, as what is worse
       for (float* p : row) p[x] = std::max(p[x], 0.0f);
     }
     if (type_ == QUELL_NORMAL) {
       const double n[3] = {row[0][x], row[1][x], row[2][x]};
       const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-      const bool none = length < (c_.encoded ? kShortestEncoded : 1e-6f);
-      for (std::size_t i = 0; i < 3; ++i) row[i][x] = none ? 0.0f : float(n[i] / length);
+      const double by = length < shortest() ? 0.0 : 1.0 / length;
+      for (std::size_t i = 0; i < 3; ++i) row[i][x] = float(n[i] * by);
     }
   }
 
@@ -193,7 +192,6 @@ class Converter {
   int type_;
   Window window_;
   const Conversion& c_;
-  Repairs& repairs_;
   float missing_;
   Matrix view_to_world_ = kIdentity;
   std::optional<Rays> rays_;
@@ -234,8 +232,13 @@ void convert(const quell_image& image, int type, const Window& window, const Con
     convert_ids(image, inside, conversion);
     return;
   }
-  Converter converter(image, type, inside, conversion, camera, repairs);
-  for (int y = inside.y0; y < inside.y1; ++y) converter.row(y);
+  const Converter converter(image, type, inside, conversion, camera);
+  std::vector<Repairs> found(std::size_t((inside.y1 - inside.y0 + kPieceRows - 1) / kPieceRows));
+  in_pieces(int(found.size()), [&](int i) {
+    const int top = inside.y0 + i * kPieceRows;
+    for (int y = top; y < std::min(top + kPieceRows, inside.y1); ++y) converter.row(y, found[std::size_t(i)]);
+  });
+  for (const auto& f : found) repairs.non_finite += f.non_finite, repairs.negative += f.negative;
 }
 
 }  // namespace quell

@@ -32,7 +32,7 @@ class FrameSource {
   virtual const std::map<std::string, int>& roles() const = 0;
   // Shape of each role in `roles`, in that order, for this frame; opens headers only. Throws Error(Exit::input).
   virtual std::vector<quell_shape> shapes(std::int64_t frame, std::span<const std::string> roles) = 0;
-  // Fills one image per role, in the conventions of <quell/types.h>. May run on a thread of its own while another frame
+  // Fills one image per role, in the conventions of <quell/types.h>. May run on another thread while another frame
   // is filtered; one call at a time. Throws Error(Exit::input).
   virtual void read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) = 0;
   // Totals so far, by role.

@@ -10,8 +10,25 @@
 namespace quell {
 
 // Runs piece(0) to piece(count - 1), in any order, on the threads of the arena that the caller is in. When some throw,
-// what the first of them threw comes out, after all that had begun have ended.
+// what the first of them threw comes out, after all that had begun have ended. Their time is that of the caller's job.
 void in_pieces(int count, const std::function<void(int)>& piece);
+
+// A job beside others, at most one at a time, on the threads of the arena that it is started in and waited for in; who
+// waits does it when no other thread has begun. Waits when destroyed; what it threw comes out of wait().
+class Background {
+ public:
+  Background();
+  ~Background();
+  void start(std::function<void()> job);
+  bool started() const { return started_; }
+  void wait();
+
+ private:
+  struct Task;
+  void finish();
+  std::unique_ptr<Task> task_;
+  bool started_ = false;
+};
 
 // Things that pieces borrow: as many as ever worked at once.
 template <class T>

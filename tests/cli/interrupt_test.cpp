@@ -66,7 +66,8 @@ TEST_F(Interrupt, WorksWhileTheFirstFrameIsStillMade) {
 }
 
 TEST_F(Interrupt, TwiceLeavesNoHalfFileEither) {
-  for (int done = 1; done <= 3; ++done) {
+  // A frame is written while the next is filtered, so with two done the first is there.
+  for (int done = 2; done <= 4; ++done) {
     Program program(long_run("1"), here());
     ASSERT_TRUE(program.wait_until([&] { return frames_done(program) >= done; })) << program.err();
     program.send(SIGINT);

@@ -5,14 +5,21 @@
 #include "core/plugin/registry.h"
 #include "core/report/error.h"
 #include "core/run/plan.h"
+#include "core/sequence/job_time.h"
+#include "core/sequence/pieces.h"
 
 #include <gtest/gtest.h>
 #include <quell/node.h>
+
+#include <time.h>
 
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
+#include <set>
+#include <thread>
 
 namespace quell {
 namespace {
@@ -248,6 +255,93 @@ TEST(Executor, SameBitsForAnyThreadsAndBands) {
     }
   for (const auto& r : results)
     for (std::size_t f = 0; f < 5; ++f) EXPECT_TRUE(same(r.frames[f].second[0], results[0].frames[f].second[0]));
+}
+
+// Reads and writes in pieces, and remembers the threads that worked.
+struct Crew {
+  std::mutex mutex;
+  std::set<std::thread::id> threads;
+  void work() {
+    in_pieces(16, [this](int) {
+      const std::scoped_lock lock(mutex);
+      threads.insert(std::this_thread::get_id());
+    });
+  }
+};
+
+TEST(Executor, ReadsFiltersAndWritesOnTheThreadsThatWereAskedFor) {
+  for (const int threads : {1, 2}) {
+    Crew crew;
+    struct Source : Frames {
+      using Frames::Frames;
+      void read(std::int64_t f, std::span<const std::string> r, std::span<const quell_image> into) override {
+        crew->work();
+        Frames::read(f, r, into);
+      }
+      Crew* crew = nullptr;
+    } source(0, 20);
+    struct Sink : Keep {
+      void write(std::int64_t f, std::span<const quell_image> outputs) override {
+        crew->work();
+        Keep::write(f, outputs);
+      }
+      Crew* crew = nullptr;
+    } sink;
+    source.crew = sink.crew = &crew;
+    RunOptions options;
+    options.threads = threads;
+    run_graph(accumulator(), source, sink, options);
+    EXPECT_EQ(sink.frames.size(), 21u);
+    EXPECT_LE(crew.threads.size(), std::size_t(threads));
+    if (threads == 1) {
+      EXPECT_TRUE(crew.threads.contains(std::this_thread::get_id()));
+    }
+  }
+}
+
+void burn(double seconds) {
+  const auto now = [] {
+    timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+  };
+  for (const double end = now() + seconds; now() < end;) {
+  }
+}
+
+TEST(Executor, TellsTheWorkOfFilesFromTheRest) {
+  struct Source : Frames {
+    using Frames::Frames;
+    void read(std::int64_t f, std::span<const std::string> r, std::span<const quell_image> into) override {
+      burn(1e-3);
+      in_pieces(4, [](int) { burn(1e-3); });
+      Frames::read(f, r, into);
+    }
+  } source(0, 4);
+  struct Sink : Keep {
+    void write(std::int64_t f, std::span<const quell_image> outputs) override {
+      in_pieces(2, [](int) { burn(1e-3); });
+      Keep::write(f, outputs);
+    }
+  } sink;
+  for (const int threads : {1, 3}) {
+    RunOptions options;
+    options.threads = threads;
+    const auto report = run_graph(accumulator(), source, sink, options);
+    EXPECT_GE(report.read_cpu, 5 * 5e-3);
+    EXPECT_GE(report.write_cpu, 5 * 2e-3);
+    EXPECT_GE(report.filter_cpu, 0.0);
+    // Whatever a thread did while it waited for its pieces is not the job's.
+    JobTime job;
+    {
+      const JobSpan span(job);
+      burn(1e-3);
+      const ThreadTime other(nullptr);
+      burn(0.1);
+    }
+    EXPECT_GE(job.cpu, 1'000'000);
+    EXPECT_LT(job.cpu, 50'000'000);
+  }
 }
 
 class State : public testing::Test {
