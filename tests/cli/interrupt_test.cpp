@@ -47,9 +47,9 @@ TEST_F(Interrupt, EndsTheRunWithWholeFrames) {
     ASSERT_NE(message, std::string::npos) << r.err;
     const auto last = std::stoul(r.err.substr(r.err.rfind('-') + 1));
     EXPECT_GE(last, 1u);
-    // Two outputs, and a preview of one of them.
+    // Two outputs, and a preview of each.
     if (signal == SIGINT) {
-      EXPECT_EQ(whole_files(false), 3 * (last + 1));
+      EXPECT_EQ(whole_files(false), 4 * (last + 1));
     }
   }
   whole_files(false);
