@@ -159,20 +159,44 @@ inline void weights_in_place(const Batch& batch, float* sum_weight) {
     store(sw, sum_weight + i);
   }
 }
-// … and adds the planes one by one, or the variance by squared weights.
-template <bool kSquared, bool kBorder>
-void add_by_weight(const Batch& batch, const float* plane, float* sum) {
-  const quell_run& run = batch.run;
-  for (int i = 0; i < run.n; i += kLanes) {
-    V s = load(sum + i);
-    const float* e = batch.exponent + i;
-    for (int t = 0; t < run.taps; ++t, e += run.row) {
-      const V w = load(e);
-      const V v = value_of<kBorder>(plane + run.at + run.tap[t].offset + i, w);
-      s = mul_add(kSquared ? w * w : w, v, s);
+// … and adds up to three planes at a time, or the variance by squared weights; two vectors a step, for one alone waits
+// for its sums.
+template <int kPlanes, bool kSquared, bool kBorder>
+HWY_FLATTEN HWY_NOINLINE void add_by_weight(const Batch& batch, const float* const* plane, float* const* sum) {
+  const quell_run run = batch.run;
+  const float* from[kPlanes];
+  for (int p = 0; p < kPlanes; ++p) from[p] = plane[p];
+  for (int i = 0; i < run.n; i += 2 * kLanes) {
+    V a[kPlanes], b[kPlanes];
+    HWY_UNROLL(3)
+    for (int p = 0; p < kPlanes; ++p) a[p] = load(sum[p] + i), b[p] = load(sum[p] + i + kLanes);
+    const float* w = batch.exponent + i;
+    for (int t = 0; t < run.taps; ++t, w += run.row) {
+      const V wa = load(w), wb = load(w + kLanes);
+      const V by_a = kSquared ? wa * wa : wa, by_b = kSquared ? wb * wb : wb;
+      const std::ptrdiff_t at = run.at + run.tap[t].offset + i;
+      HWY_UNROLL(3)
+      for (int p = 0; p < kPlanes; ++p) {
+        a[p] = mul_add(by_a, value_of<kBorder>(from[p] + at, wa), a[p]);
+        b[p] = mul_add(by_b, value_of<kBorder>(from[p] + at + kLanes, wb), b[p]);
+      }
     }
-    store(s, sum + i);
+    HWY_UNROLL(3)
+    for (int p = 0; p < kPlanes; ++p) store(a[p], sum[p] + i), store(b[p], sum[p] + i + kLanes);
   }
+}
+template <bool kBorder>
+void add_planes_by_weight(const Gather& g, const Batch& batch, Sums& sums) {
+  const std::size_t planes = g.planes.size();
+  for (std::size_t p = 0; p < planes; p += 3) {
+    // Sums has two rows behind those of the planes.
+    float* const sum[3] = {sums.plane(p), sums.plane(p + 1), sums.plane(p + 2)};
+    planes - p == 1   ? add_by_weight<1, false, kBorder>(batch, &g.planes[p], sum)
+    : planes - p == 2 ? add_by_weight<2, false, kBorder>(batch, &g.planes[p], sum)
+                      : add_by_weight<3, false, kBorder>(batch, &g.planes[p], sum);
+  }
+  float* const sum = sums.variance();
+  if (g.variance) add_by_weight<1, true, kBorder>(batch, &g.variance, &sum);
 }
 
 inline void start_sums(const Gather& g, const quell_run& run, Sums& sums) {
@@ -209,8 +233,7 @@ void add_batch(const Gather& g, const Batch& batch, Sums& sums) {
   } else {
     if (batch.first) start_sums(g, batch.run, sums);
     weights_in_place(batch, sums.weight());
-    for (std::size_t p = 0; p < planes; ++p) add_by_weight<false, kBorder>(batch, g.planes[p], sums.plane(p));
-    if (g.variance) add_by_weight<true, kBorder>(batch, g.variance, sums.variance());
+    add_planes_by_weight<kBorder>(g, batch, sums);
     if (batch.means) store_means(g, batch.run.n, sums, *batch.means);
   }
 }
