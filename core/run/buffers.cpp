@@ -31,7 +31,7 @@ Buffers::Memory Buffers::allocate(std::size_t floats) {
 Buffers::Buffers(const Plan& plan) : plan_(&plan), arena_(allocate(plan.arena_floats())) {
   for (const auto& v : plan.values()) {
     auto& slots = planes_.emplace_back();
-    if (!v.exists) continue;
+    if (!v.exists || v.local) continue;
     if (v.slots == 0) {
       lay_out(arena_.get() + v.offset, v.shape, slots.emplace_back());
       continue;

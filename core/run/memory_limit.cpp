@@ -19,7 +19,7 @@ std::string largest_buffers(const Plan& plan) {
   constexpr std::size_t kShown = 5;
   std::vector<const PlannedValue*> buffers;
   for (const auto& v : plan.values())
-    if (v.exists) buffers.push_back(&v);
+    if (v.exists && !v.local) buffers.push_back(&v);
   std::ranges::stable_sort(buffers, std::greater(), [](const auto* v) { return v->bytes(); });
   std::string text;
   for (std::size_t i = 0; i < std::min(kShown, buffers.size()); ++i) {

@@ -87,8 +87,9 @@ void NodeSource::read(std::int64_t frame, std::span<const std::string> roles, st
   }
   if (tiled == out.size()) tiled = 0;
   const std::vector<quell_input> in(node_.in.size());
-  const quell_tile tile{in.data(), out.data(), 0, 0, 0, 0, frame};
-  workers_.run(node_, resource_.get(), tile, int(tiled), 16);
+  workers_.run(out[tiled].height, 16, [&](int, int y0, int y1) {
+    workers_.run(node_, resource_.get(), {in.data(), out.data(), 0, y0, out[tiled].width, y1, frame});
+  });
 }
 
 }  // namespace quell

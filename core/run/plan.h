@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/graph/graph.h"
+#include "core/run/chains.h"
 
 #include <cstddef>
 #include <memory>
@@ -28,14 +29,15 @@ struct PlannedValue {
   int delay = 0;            // how many frames ago it is still read
   bool output = false;      // handed to the sink
   int slots = 0;            // > 0: a ring of its own, rotated by frame; 0: in the arena
+  bool local = false;       // no more of it exists at a time than a band on each thread
   int first = 0, last = 0;  // steps of the order during which it lives
   std::size_t floats = 0;   // of one slot
-  std::size_t offset = 0;   // in the arena, floats
+  std::size_t offset = 0;   // in the arena, floats; of a local value in the memory of a band, planes
   // Of all slots.
   std::size_t bytes() const { return floats * sizeof(float) * std::size_t(slots > 0 ? slots : 1); }
 };
 
-// "ring of 3" frames, or the "steps 2-5" of the order during which it has a place in the arena.
+// "ring of 3" frames, "a band", or the "steps 2-5" of the order during which it has a place in the arena.
 std::string place_of(const PlannedValue&);
 
 struct PlannedNode {
@@ -59,6 +61,7 @@ class Plan {
   Overlap overlap() const { return overlap_; }
   const std::vector<PlannedValue>& values() const { return values_; }
   const std::vector<PlannedNode>& nodes() const { return nodes_; }
+  const std::vector<Chain>& chains() const { return chains_; }
   std::size_t value_of(Source s) const {
     return s.node == Source::kInput ? std::size_t(s.port) : first_value_[std::size_t(s.node)] + std::size_t(s.port);
   }
@@ -72,8 +75,8 @@ class Plan {
   // What it would take without reuse of memory within a frame.
   std::size_t bytes_without_reuse() const;
 
-  // Rows of a band for a node on this many threads; `wanted` overrides (0: choose).
-  int band_rows(std::size_t node, int threads, int wanted) const;
+  // Rows of a band for a chain on this many threads; `wanted` overrides (0: choose).
+  int band_rows(const Chain&, int threads, int wanted) const;
 
   // The plan for people: order, reach, buffers, bytes.
   std::string describe() const;
@@ -84,11 +87,14 @@ class Plan {
   bool shapes(bool settled);
   void lifetimes();
   void memory();
+  void place_bands();
 
   const Graph* graph_;
   Overlap overlap_;
   std::vector<PlannedValue> values_;
   std::vector<PlannedNode> nodes_;
+  std::vector<Chain> chains_;
+  std::vector<std::size_t> chain_of_;
   std::vector<std::size_t> first_value_;
   std::size_t arena_floats_ = 0, ring_floats_ = 0;
 };

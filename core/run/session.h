@@ -1,6 +1,7 @@
 // One plan at work: buffers bound to nodes, frame by frame.
 #pragma once
 
+#include "core/run/bands.h"
 #include "core/run/buffers.h"
 #include "core/run/executor.h"
 #include "core/run/plan.h"
@@ -37,14 +38,12 @@ class Session {
   quell_image history(std::size_t value, int delay) const { return buffers_.image(value, ordinal_, delay); }
 
  private:
-  struct Bound {
-    std::vector<std::vector<quell_image>> images;
-    std::vector<std::vector<quell_bound_weight>> weights;
-    std::vector<quell_input> in;
-    std::vector<quell_image> out;
-  };
-  void bind(std::size_t node);
-  quell_image wire_image(const Wire&) const;
+  void bind(const Chain&, std::size_t node, Band&);
+  quell_image wire_image(const Wire&, const Band&) const;
+  quell_image value_image(std::size_t value, int delay, const Band&) const;
+  void run_rows(const Chain&, const Band& bound, std::vector<double>& seconds, const quell_tile& rows);
+  // Shares the time of a chain out to its nodes as the threads spent theirs.
+  void share_out(const Chain&, double wall, std::span<double> times) const;
 
   const Graph* graph_;
   std::vector<quell_shape> input_shapes_;
@@ -55,7 +54,7 @@ class Session {
   int wanted_rows_;
   Trace* trace_;
   TapCounter* taps_;
-  std::vector<Bound> bound_;
+  std::vector<Band> bands_;  // by thread; the first also holds what all threads share
   std::int64_t ordinal_ = 0, age_ = 0;
 };
 

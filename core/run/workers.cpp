@@ -40,20 +40,13 @@ Workers::Workers(int threads, const std::atomic<bool>* cancel, Trace* trace)
       cancel_(cancel),
       trace_(trace) {}
 
-void Workers::run(const GraphNode& node, const void* resource, quell_tile tile, int tiled, int band_rows) {
-  const int width = tile.out[tiled].width, height = tile.out[tiled].height;
+void Workers::run(int height, int band_rows, const std::function<void(int thread, int y0, int y1)>& rows) {
   const int bands = (height + band_rows - 1) / band_rows;
   const auto run_band = [&](int band) {
     if (cancel_ && cancel_->load(std::memory_order_relaxed)) return;
     const FlushDenormals flush;
-    quell_tile t = tile;
-    t.x0 = 0, t.x1 = width;
-    t.y0 = band * band_rows, t.y1 = std::min(height, t.y0 + band_rows);
-    quell_error error{};
-    const Trace::Span span(trace_, {node.name, node.type().name(), tile.frame, t.y0, t.y1});
-    if (node.type().table().run(node.instance.data(), resource, &t, &error) != 0)
-      throw Error(Exit::plugin, fmt::format("{} ({}), frame {}, rows {}-{}: {}", node.name, node.type().name(),
-                                            tile.frame, t.y0, t.y1 - 1, error.text));
+    const int thread = threads_ == 1 || bands == 1 ? 0 : tbb::this_task_arena::current_thread_index();
+    rows(thread, band * band_rows, std::min(height, (band + 1) * band_rows));
   };
   if (threads_ == 1 || bands == 1) {
     for (int band = 0; band < bands; ++band) run_band(band);
@@ -61,6 +54,14 @@ void Workers::run(const GraphNode& node, const void* resource, quell_tile tile, 
     arena_.execute([&] { in_pieces(bands, run_band); });
   }
   if (cancel_ && cancel_->load()) throw Error(Exit::interrupted, "interrupted");
+}
+
+void Workers::run(const GraphNode& node, const void* resource, const quell_tile& tile) const {
+  quell_error error{};
+  const Trace::Span span(trace_, {node.name, node.type().name(), tile.frame, tile.y0, tile.y1});
+  if (node.type().table().run(node.instance.data(), resource, &tile, &error))
+    throw Error(Exit::plugin, fmt::format("{} ({}), frame {}, rows {}-{}: {}", node.name, node.type().name(),
+                                          tile.frame, tile.y0, tile.y1 - 1, error.text));
 }
 
 }  // namespace quell

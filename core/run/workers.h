@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 
 namespace quell {
 
@@ -24,10 +25,11 @@ class Workers {
     return arena_.execute(f);
   }
 
-  // Runs a node over all rows of output `tiled`, in bands. `tile` has inputs, outputs and frame. Throws
-  // Error(Exit::plugin) with node, frame and rows when the node fails, Error(Exit::interrupted) when the run was
-  // cancelled.
-  void run(const GraphNode&, const void* resource, quell_tile tile, int tiled, int band_rows);
+  // Calls rows(thread, y0, y1) for bands of all rows up to `height`, thread in [0, threads()). Throws
+  // Error(Exit::plugin) of the first band that threw one, Error(Exit::interrupted) when the run was cancelled.
+  void run(int height, int band_rows, const std::function<void(int thread, int y0, int y1)>& rows);
+  // A node on one tile, within that. Throws Error(Exit::plugin) with node, frame and rows when it fails.
+  void run(const GraphNode&, const void* resource, const quell_tile&) const;
 
  private:
   int threads_;
