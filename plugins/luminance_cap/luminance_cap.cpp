@@ -8,12 +8,12 @@
 
 namespace {
 
-enum class Mode : std::int32_t { brightest, mean };
+enum class Cap : std::int32_t { brightest, mean };
 
 struct LuminanceCap {
   quell::In<quell::Radiance> image;
   quell::Out<quell::Radiance> capped;
-  Mode mode = Mode::brightest;
+  Cap cap = Cap::brightest;
   int radius = 1;
   int rank = 1;
   float margin = 0.0f;
@@ -25,12 +25,12 @@ struct LuminanceCap {
     d.source("brightest: maximum of a 3×3 neighbourhood; mean: the anti-sparkle filter of Quake II RTX, margin 0.414");
     d.in(image, "image", "Noisy radiance.").halo(radius);
     d.out(capped, "image", "C · min(1, cap / l), with the luminance l = 0.2126 R + 0.7152 G + 0.0722 B.").passes(image);
-    d.param(mode, "mode", "What the cap is made of: the rank-th brightest neighbour, or the mean of all.",
+    d.param(cap, "cap", "What the cap is made of: the rank-th brightest neighbour, or the mean of all.",
             {"brightest", "mean"});
     d.param(radius, "radius", "Half-width of the window, pixels; the centre itself is left out.").range(1, 3);
     d.param(
          rank, "rank",
-         "In mode brightest: 1 is the brightest neighbour, 2 the second, so that two bright pixels beside each other "
+         "With cap brightest: 1 is the brightest neighbour, 2 the second, so that two bright pixels beside each other "
          "are found as well. Pixels with fewer neighbours stay.")
         .range(1, 4);
     d.param(margin, "margin", "The cap is 1 + margin times that.").range(0.0f, 100.0f);
@@ -48,8 +48,8 @@ struct LuminanceCap {
       const float* const rows[3] = {tile.row(image, 0, y), tile.row(image, 1, y), tile.row(image, 2, y)};
       quell::luminances(rows, left, right, first + (y - top) * pitch - left);
     }
-    const quell::CapWindow window{first - top * pitch - left,    pitch,     in.width, in.height, radius,
-                                  mode == Mode::mean ? 0 : rank, 1 + margin};
+    const quell::CapWindow window{first - top * pitch - left,  pitch,     in.width, in.height, radius,
+                                  cap == Cap::mean ? 0 : rank, 1 + margin};
     for (int y = tile.y0; y < tile.y1; ++y) {
       const float* const from[3] = {tile.row(image, 0, y), tile.row(image, 1, y), tile.row(image, 2, y)};
       float* const to[3] = {tile.row(capped, 0, y), tile.row(capped, 1, y), tile.row(capped, 2, y)};

@@ -48,7 +48,7 @@ TEST_P(LuminanceCap, IsItsFormula) {
         for (int k = 0; k < 3; ++k) image.at(k, x + 1, y) = 0;
     }
   Node node("luminance_cap");
-  node.set("mode", c.rank ? "brightest" : "mean").set("radius", c.radius).set("margin", c.margin).in("image", image);
+  node.set("cap", c.rank ? "brightest" : "mean").set("radius", c.radius).set("margin", c.margin).in("image", image);
   if (c.rank) node.set("rank", c.rank);
   for_each_target([&] {
     const auto out = node.run("image");

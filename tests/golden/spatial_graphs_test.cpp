@@ -1,6 +1,7 @@
 // Shipped spatial graphs and parts over images whose truth is known: what they gain, and what they leave alone.
 #include "tests/support/run_graph.h"
 #include "tests/support/run_node.h"
+#include "tests/support/run_shipped.h"
 #include "tests/support/weight_oracle.h"
 
 #include <gtest/gtest.h>
@@ -83,6 +84,12 @@ TEST(OutlierRemoval, RemovesFirefliesAndSaysWhatItCost) {
   // 5 · 7 pixels of 500 among 7680 of 1: 70 % of the light.
   EXPECT_NEAR(out.at("share").at(0, 0, 0), 35 * 500.0 / (35 * 500.0 + 7645), 0.1);
   EXPECT_GE(out.at("changed").at(0, 0, 0), 35.0 / 7680);
+}
+
+// What its description promises.
+TEST(OutlierRemoval, TakesEveryOtherClamp) {
+  for (const char* clamp : {"outlier_rank", "luminance_cap", "percentile_clamp"})
+    EXPECT_NO_THROW(shipped_graph("outlier_removal", {{Edit::Kind::swap, std::string("clamp=") + clamp}})) << clamp;
 }
 
 TEST(Prefilter, TakesNoiseOfFeaturesAndKeepsTheirEdges) {
