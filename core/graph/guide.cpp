@@ -1,6 +1,8 @@
 // A graph in words.
 #include "core/graph/guide.h"
 
+#include "core/plugin/document.h"
+
 #include <quell/types.h>
 
 #include <fmt/format.h>
@@ -11,19 +13,6 @@
 
 namespace quell {
 
-namespace {
-
-std::string cell(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '|') out += '\\';
-    out += c == '\n' ? ' ' : c;
-  }
-  return out;
-}
-
-}  // namespace
-
 std::string guide_markdown(const GraphInfo& info, const Graph& graph) {
   const std::string name = std::filesystem::path(info.file).stem().string();
   std::string out =
@@ -33,8 +22,8 @@ std::string guide_markdown(const GraphInfo& info, const Graph& graph) {
     out += fmt::format("| `{}` | {}{} |\n", input.name, type_name(input.type), input.optional ? ", optional" : "");
   if (!info.params.empty()) out += "\n| parameter | takes | default | | feeds |\n|---|---|---|---|---|\n";
   for (const auto& p : info.params)
-    out += fmt::format("| `{}` | {} | `{}` | {} | {} |\n", p.name, cell(p.takes), cell(p.value), cell(p.doc),
-                       fmt::join(p.feeds, ", "));
+    out += fmt::format("| `{}` | {} | `{}` | {} | {} |\n", p.name, markdown_cell(p.takes), markdown_cell(p.value),
+                       markdown_cell(p.doc), fmt::join(p.feeds, ", "));
   std::vector<std::string> outputs;
   for (const auto& output : graph.outputs)
     outputs.push_back(fmt::format("`{}` ({})", output.name, type_name(output.type)));

@@ -82,7 +82,9 @@ std::string output_note(const NodeType& type, const quell_port& port) {
   return note;
 }
 
-std::string cell(std::string_view text) {
+}  // namespace
+
+std::string markdown_cell(std::string_view text) {
   std::string out;
   for (const char c : text) {
     if (c == '|') out += '\\';
@@ -90,8 +92,6 @@ std::string cell(std::string_view text) {
   }
   return out;
 }
-
-}  // namespace
 
 std::string takes(const quell_param& p) {
   switch (p.kind) {
@@ -141,15 +141,16 @@ std::string document_markdown(const NodeType& type) {
   if (type.is_weight()) out += "\nA weight node: wire it into the `weights` of a filter.\n";
   if (*type.table().source) out += fmt::format("\nSource: {}\n", type.table().source);
   if (!type.inputs().empty()) out += "\n| input | type | |\n|---|---|---|\n";
-  for (const auto& p : type.inputs()) out += fmt::format("| `{}` | {} | {} |\n", p.name, type_text(p), cell(p.doc));
+  for (const auto& p : type.inputs())
+    out += fmt::format("| `{}` | {} | {} |\n", p.name, type_text(p), markdown_cell(p.doc));
   out += "\n| output | type | |\n|---|---|---|\n";
   for (const auto& p : type.outputs())
-    out += fmt::format("| `{}` | {} | {}{} |\n", p.name, type_text(p), cell(p.doc), output_note(type, p));
+    out += fmt::format("| `{}` | {} | {}{} |\n", p.name, type_text(p), markdown_cell(p.doc), output_note(type, p));
   if (!type.params().empty()) out += "\n| parameter | takes | default | |\n|---|---|---|---|\n";
   for (std::size_t i = 0; i < type.params().size(); ++i) {
     const auto& p = type.params()[i];
-    out += fmt::format("| `{}` | {} | `{}` | {} |\n", p.name, cell(takes(p)), cell(default_json(type, int(i))),
-                       cell(p.doc));
+    out += fmt::format("| `{}` | {} | `{}` | {} |\n", p.name, markdown_cell(takes(p)),
+                       markdown_cell(default_json(type, int(i))), markdown_cell(p.doc));
   }
   return out;
 }

@@ -4,8 +4,12 @@
 #include "core/plugin/node_type.h"
 
 #include <string>
+#include <string_view>
 
 namespace quell {
+
+// Text as it may stand in a cell of a Markdown table.
+std::string markdown_cell(std::string_view);
 
 // What a parameter takes: "a whole number from 1 to 64", "one of b3, box", "a list of 3 numbers".
 std::string takes(const quell_param&);

@@ -63,7 +63,9 @@ TEST(Innovation, IsItsFormula) {
       int marked = 0;
       for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) marked += out.at(0, x, y) > 0;
-      if (width == 90) EXPECT_GT(marked, 50);
+      if (width == 90) {
+        EXPECT_GT(marked, 50);
+      }
     });
   }
 }

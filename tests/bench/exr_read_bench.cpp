@@ -5,6 +5,7 @@
 #include "core/bench/synthetic_source.h"
 #include "core/sequence/exr_writer.h"
 #include "core/sequence/image_file.h"
+#include "tests/bench/turns.h"
 #include "tests/support/scratch.h"
 
 #include <quell/types.h>
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -22,24 +22,6 @@
 namespace {
 
 constexpr int kRounds = 7;
-
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
-
-template <class Action>
-double seconds(Action action) {
-  const double begin = cpu_seconds();
-  action();
-  return cpu_seconds() - begin;
-}
-
-double median(std::vector<double> v) {
-  std::ranges::sort(v);
-  return v[v.size() / 2];
-}
 
 void compare(const std::string& name, const std::string& path) {
   const quell::ImageFile header(path);
@@ -51,8 +33,8 @@ void compare(const std::string& name, const std::string& path) {
   for (int c = 0; c < channels; ++c) reads.push_back({c, planes.row(c, 0)});
   std::vector<double> ours, theirs;
   for (int round = 0; round <= kRounds; ++round) {
-    const double a = seconds([&] { quell::ImageFile(path).read(reads, planes.pitch()); });
-    const double b = seconds([&] {
+    const double a = quell::bench::cpu_seconds_of([&] { quell::ImageFile(path).read(reads, planes.pitch()); });
+    const double b = quell::bench::cpu_seconds_of([&] {
       const auto in = OIIO::ImageInput::open(path);
       if (!in || !in->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, interleaved.data()))
         std::printf("%s: %s\n", path.c_str(), OIIO::geterror().c_str());
@@ -61,8 +43,8 @@ void compare(const std::string& name, const std::string& path) {
   }
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   std::printf("%-16s %2d channels, %5.1f MB: OpenImageIO %6.1f ms, planes %6.1f ms, ratio %.2f\n", name.c_str(),
-              channels, double(file.tellg()) / 1e6, median(theirs) * 1e3, median(ours) * 1e3,
-              median(ours) / median(theirs));
+              channels, double(file.tellg()) / 1e6, quell::bench::median(theirs) * 1e3,
+              quell::bench::median(ours) * 1e3, quell::bench::median(ours) / quell::bench::median(theirs));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "core/bench/synthetic_source.h"
 #include "core/sequence/exr_writer.h"
 #include "core/sequence/image_file.h"
+#include "tests/bench/turns.h"
 
 #include <quell/types.h>
 
@@ -15,31 +16,12 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <string>
 #include <vector>
 
 namespace {
 
 constexpr int kRounds = 5;
-
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
-
-template <class Action>
-double seconds(Action action) {
-  const double begin = cpu_seconds();
-  action();
-  return cpu_seconds() - begin;
-}
-
-double median(std::vector<double> v) {
-  std::ranges::sort(v);
-  return v[v.size() / 2];
-}
 
 quell::Image load(const std::string& path) {
   quell::ImageFile file(path);
@@ -87,13 +69,15 @@ int main(int argc, char** argv) {
     std::vector<double> ours, theirs;
     std::size_t our_size = 0, their_size = 0;
     for (int round = 0; round < kRounds; ++round) {
-      ours.push_back(seconds([&] { our_size = quell::encode_exr(image.view(), channels, compression, {}).size(); }));
-      if (!compression.level) theirs.push_back(seconds([&] { their_size = by_oiio(text, image, pixels); }));
+      ours.push_back(quell::bench::cpu_seconds_of(
+          [&] { our_size = quell::encode_exr(image.view(), channels, compression, {}).size(); }));
+      if (!compression.level)
+        theirs.push_back(quell::bench::cpu_seconds_of([&] { their_size = by_oiio(text, image, pixels); }));
     }
-    std::printf("%-8s %6.1f ms, %6.2f MB", text.c_str(), median(ours) * 1e3, double(our_size) / 1e6);
+    std::printf("%-8s %6.1f ms, %6.2f MB", text.c_str(), quell::bench::median(ours) * 1e3, double(our_size) / 1e6);
     if (!theirs.empty())
-      std::printf("   OpenImageIO %6.1f ms, %6.2f MB, ratio %.2f", median(theirs) * 1e3, double(their_size) / 1e6,
-                  median(ours) / median(theirs));
+      std::printf("   OpenImageIO %6.1f ms, %6.2f MB, ratio %.2f", quell::bench::median(theirs) * 1e3,
+                  double(their_size) / 1e6, quell::bench::median(ours) / quell::bench::median(theirs));
     std::printf("\n");
   }
 }

@@ -22,6 +22,19 @@ inline double seconds(clockid_t clock) {
   return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
+// CPU time of the process.
+template <class Action>
+double cpu_seconds_of(Action action) {
+  const double begin = seconds(CLOCK_PROCESS_CPUTIME_ID);
+  action();
+  return seconds(CLOCK_PROCESS_CPUTIME_ID) - begin;
+}
+
+inline double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
+
 struct Cost {
   double wall = 1e9, cpu = 1e9;  // seconds; CPU of the whole process
 };
