@@ -1,0 +1,47 @@
+// Several sources of frames as one: pictures, their reference and the features of a sequence.
+#pragma once
+
+#include "core/sequence/frame_source.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace quell {
+
+class JoinedSource : public FrameSource {
+ public:
+  struct Part {
+    std::string label;  // in messages: "--reference truth.####.exr"
+    std::unique_ptr<FrameSource> source;
+    std::map<std::string, std::string> roles;  // as they are called here, and what the source calls them
+    bool still = false;                        // one frame, which serves all
+  };
+
+  // Frames and cuts are those of the first part that moves. Throws Error(Exit::input) when another part lacks one of
+  // them, and Error(Exit::usage) when two parts give one role.
+  explicit JoinedSource(std::vector<Part> parts);
+
+  const std::vector<std::int64_t>& frames() const override { return lead().frames(); }
+  bool cut_before(std::int64_t frame) const override { return lead().cut_before(frame); }
+  bool declared_cut(std::int64_t frame) const override { return lead().declared_cut(frame); }
+  const std::map<std::string, int>& roles() const override { return roles_; }
+  std::vector<quell_shape> shapes(std::int64_t frame, std::span<const std::string> roles) override;
+  void read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) override;
+  std::map<std::string, Repairs> repairs() const override;
+
+ private:
+  const FrameSource& lead() const { return *parts_[lead_].source; }
+  // Calls use(part, the frame as it counts them, its own names of the roles, their places in `roles`) for each part.
+  template <class Use>
+  void split(std::int64_t frame, std::span<const std::string> roles, Use use);
+
+  std::vector<Part> parts_;
+  std::size_t lead_ = 0;
+  std::map<std::string, int> roles_;
+  std::map<std::string, std::size_t> part_of_;
+};
+
+}  // namespace quell
