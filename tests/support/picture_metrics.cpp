@@ -37,14 +37,21 @@ double flicker(const Image& x, const Image& before, const Image& motion, const I
   long count = 0;
   for (int v = 0; v < x.height(); ++v)
     for (int u = 0; u < x.width(); ++u) {
-      const int pu = int(std::floor(float(u) + 0.5f + motion.at(0, u, v))),
-                pv = int(std::floor(float(v) + 0.5f + motion.at(1, u, v)));
-      if (pu < 0 || pv < 0 || pu >= x.width() || pv >= x.height()) continue;
-      if (id_before.bits(0, pv)[pu] != id.bits(0, v)[u]) continue;
-      for (int c = 0; c < 3; ++c) sum += std::abs(tone(x.at(c, u, v)) - tone(before.at(c, pu, pv)));
+      const double su = u + double(motion.at(0, u, v)), sv = v + double(motion.at(1, u, v));
+      const int pu = int(std::floor(su)), pv = int(std::floor(sv));
+      if (pu < 0 || pv < 0 || pu + 1 >= x.width() || pv + 1 >= x.height()) continue;
+      const double fu = su - pu, fv = sv - pv, w[4] = {(1 - fu) * (1 - fv), fu * (1 - fv), (1 - fu) * fv, fu * fv};
+      bool same = true;
+      for (int k = 0; k < 4; ++k) same = same && id_before.bits(0, pv + k / 2)[pu + k % 2] == id.bits(0, v)[u];
+      if (!same) continue;
+      for (int c = 0; c < 3; ++c) {
+        double warped = 0;
+        for (int k = 0; k < 4; ++k) warped += w[k] * tone(before.at(c, pu + k % 2, pv + k / 2));
+        sum += std::abs(tone(x.at(c, u, v)) - warped);
+      }
       count += 3;
     }
-  return sum / double(std::max(count, 1L));
+  return 1000 * sum / double(std::max(count, 1L));
 }
 
 }  // namespace quell::test

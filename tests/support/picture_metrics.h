@@ -16,7 +16,8 @@ double psnr(const Image& x, Reference);
 // mean (X - A)(X - B) / (R² + 0.01), R the mean of A and B.
 double relative_error(const Image& x, Reference);
 
-// mean |T(X) - T(X before)| along motion, X before at the nearest pixel, where that shows the same object.
+// mean |T(X) - T(X before)| · 1000 along motion, X before interpolated between four pixels, where all four show the
+// object that X shows.
 double flicker(const Image& x, const Image& before, const Image& motion, const Image& id, const Image& id_before);
 
 }  // namespace quell::test
