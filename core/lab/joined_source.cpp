@@ -1,6 +1,7 @@
 // Hands each role to the source that gives it.
 #include "core/lab/joined_source.h"
 
+#include "core/image/image.h"
 #include "core/report/error.h"
 
 #include <fmt/format.h>
@@ -16,7 +17,7 @@ JoinedSource::JoinedSource(std::vector<Part> parts) : parts_(std::move(parts)) {
     const auto& part = parts_[p];
     const auto& theirs = part.source->frames();
     for (const auto frame : lead().frames())
-      if (!part.still && std::ranges::find(theirs, frame) == theirs.end())
+      if (!part.still && part.sparse.empty() && std::ranges::find(theirs, frame) == theirs.end())
         throw Error(Exit::input, fmt::format("{} has no frame {}, which {} has; --frames picks those that both have",
                                              part.label, frame, parts_[lead_].label));
     for (const auto& [here, there] : part.roles) {
@@ -28,17 +29,24 @@ JoinedSource::JoinedSource(std::vector<Part> parts) : parts_(std::move(parts)) {
   }
 }
 
+bool JoinedSource::has(const Part& part, std::int64_t frame) {
+  return part.still || part.sparse.empty() || std::ranges::find(part.sparse, frame) != part.sparse.end();
+}
+
+bool JoinedSource::has(std::int64_t frame, const std::string& role) const {
+  return has(parts_[part_of_.at(role)], frame);
+}
+
 template <class Use>
-void JoinedSource::split(std::int64_t frame, std::span<const std::string> roles, Use use) {
+void JoinedSource::split(std::span<const std::string> roles, Use use) {
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     std::vector<std::string> names;
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i < roles.size(); ++i)
       if (part_of_.at(roles[i]) == p) names.push_back(parts_[p].roles.at(roles[i])), places.push_back(i);
     if (names.empty()) continue;
-    const auto at = parts_[p].still ? parts_[p].source->frames().front() : frame;
     try {
-      use(*parts_[p].source, at, names, places);
+      use(parts_[p], names, places);
     } catch (const Error& e) {
       throw Error(e.exit(), fmt::format("{}: {}", parts_[p].label, e.what()));
     }
@@ -47,18 +55,28 @@ void JoinedSource::split(std::int64_t frame, std::span<const std::string> roles,
 
 std::vector<quell_shape> JoinedSource::shapes(std::int64_t frame, std::span<const std::string> roles) {
   std::vector<quell_shape> all(roles.size());
-  split(frame, roles, [&](FrameSource& source, std::int64_t at, const auto& names, const auto& places) {
-    const auto some = source.shapes(at, names);
+  split(roles, [&](const Part& part, const auto& names, const auto& places) {
+    // A frame that is missing is as large as the next that is not.
+    auto at = part.still ? part.source->frames().front() : frame;
+    if (!has(part, frame)) {
+      const auto next = std::ranges::find_if(part.sparse, [&](std::int64_t f) { return f > frame; });
+      at = next == part.sparse.end() ? part.sparse.back() : *next;
+    }
+    const auto some = part.source->shapes(at, names);
     for (std::size_t i = 0; i < some.size(); ++i) all[places[i]] = some[i];
   });
   return all;
 }
 
 void JoinedSource::read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) {
-  split(frame, roles, [&](FrameSource& source, std::int64_t at, const auto& names, const auto& places) {
+  split(roles, [&](const Part& part, const auto& names, const auto& places) {
+    if (!has(part, frame)) {
+      for (const auto place : places) fill_missing(into[place], roles_.at(roles[place]));
+      return;
+    }
     std::vector<quell_image> some;
     for (const auto place : places) some.push_back(into[place]);
-    source.read(at, names, some);
+    part.source->read(part.still ? part.source->frames().front() : frame, names, some);
   });
 }
 

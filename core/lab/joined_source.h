@@ -18,6 +18,8 @@ class JoinedSource : public FrameSource {
     std::unique_ptr<FrameSource> source;
     std::map<std::string, std::string> roles;  // as they are called here, and what the source calls them
     bool still = false;                        // one frame, which serves all
+    // Frames that it has, where it need not have all: the others read as missing. Empty: it must have all.
+    std::vector<std::int64_t> sparse = {};
   };
 
   // Frames and cuts are those of the first part that moves. Throws Error(Exit::input) when another part lacks one of
@@ -32,11 +34,15 @@ class JoinedSource : public FrameSource {
   void read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) override;
   std::map<std::string, Repairs> repairs() const override;
 
+  // Whether the role's source has this frame, and its images are not those of a missing one.
+  bool has(std::int64_t frame, const std::string& role) const;
+
  private:
   const FrameSource& lead() const { return *parts_[lead_].source; }
-  // Calls use(part, the frame as it counts them, its own names of the roles, their places in `roles`) for each part.
+  static bool has(const Part&, std::int64_t frame);
+  // Calls use(part, its own names of the roles, their places in `roles`) for each part that gives some.
   template <class Use>
-  void split(std::int64_t frame, std::span<const std::string> roles, Use use);
+  void split(std::span<const std::string> roles, Use use);
 
   std::vector<Part> parts_;
   std::size_t lead_ = 0;

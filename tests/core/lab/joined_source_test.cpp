@@ -73,6 +73,24 @@ TEST(JoinedSource, AStillServesAllFrames) {
   EXPECT_EQ(a.at(0, 0, 0), 200);
 }
 
+TEST(JoinedSource, SparseFramesReadAsMissing) {
+  auto some = parts({4});
+  some[1].sparse = {4};
+  JoinedSource joined(std::move(some));
+  EXPECT_TRUE(joined.has(4, "reference"));
+  EXPECT_FALSE(joined.has(5, "reference"));
+  EXPECT_TRUE(joined.has(5, "image"));
+  const std::vector<std::string> roles{"reference"};
+  EXPECT_EQ(joined.shapes(5, roles)[0].width, 200);
+  Image a(1, 1, 1);
+  a.fill(9);
+  const std::vector<quell_image> into{a.view()};
+  joined.read(3, roles, into);
+  EXPECT_EQ(a.at(0, 0, 0), 0);
+  joined.read(4, roles, into);
+  EXPECT_EQ(a.at(0, 0, 0), 204);
+}
+
 TEST(JoinedSource, NamesTheFrameThatIsMissing) {
   try {
     JoinedSource joined(parts({3, 5}));
