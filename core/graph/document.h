@@ -6,6 +6,7 @@
 #include "core/json/json.h"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -36,7 +37,7 @@ struct Setting {
 };
 
 struct NodeSpec {
-  std::string name;
+  std::string name;  // "atrous"; in a graph that was written with its subgraphs opened up also "level0.atrous"
   TextPosition position;
   bool graph = false;  // a graph used as a node
   std::string type;    // a node type, or the path of a graph
@@ -93,6 +94,12 @@ struct Document {
   int find_param(const std::string& n) const { return find(param_index, n); }
   int find_node(const std::string& n) const { return find(node_index, n); }
   int find_output(const std::string& n) const { return find(output_index, n); }
+  // The node that the first parts of a path name, and how many those are; -1 and 0 when there is none.
+  struct Found {
+    int node = -1;
+    std::size_t parts = 0;
+  };
+  Found find_node(std::span<const std::string> path) const;
 
   using Index = std::unordered_map<std::string, int>;
   Index input_index, param_index, node_index, output_index;

@@ -131,7 +131,8 @@ class Expander {
                                  : fmt::format("{}", join_path(c.target));
     const auto rest = std::span(c.target).subspan(a.depth);
     if (c.kind == Change::Kind::set && rest.size() == 1) return set_param(index, a, path);
-    const int n = scope.document->find_node(rest[0]);
+    const std::size_t behind = c.kind == Change::Kind::set || c.kind == Change::Kind::wire ? 1 : 0;  // parameter, port
+    const auto [n, parts] = scope.document->find_node(rest.first(rest.size() - behind));
     if (n < 0) {
       const bool input = scope.document->find_input(rest[0]) >= 0;
       faults_.error(c.position, path,
@@ -141,13 +142,12 @@ class Expander {
       return;
     }
     auto& spec = specs[std::size_t(n)];
-    const bool last = rest.size() == (c.kind == Change::Kind::set || c.kind == Change::Kind::wire ? 2u : 1u);
-    if (!last) {
+    if (rest.size() != parts + behind) {
       if (spec->graph)
-        inner[n].push_back({a.change, a.depth + 1, a.scope});
+        inner[n].push_back({a.change, a.depth + parts, a.scope});
       else
         faults_.error(c.position, path,
-                      fmt::format("node '{}' is no graph; it has no node '{}'", scope.full(rest[0]), rest[1]));
+                      fmt::format("node '{}' is no graph; it has no node '{}'", scope.full(spec->name), rest[parts]));
       return;
     }
     NodeSpec& node = edit(spec);

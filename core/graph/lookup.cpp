@@ -69,7 +69,7 @@ std::optional<Target> Lookup::find(const Reference& r, int scope, TextPosition p
     if (s.parent < 0) return root_inputs_[std::size_t(i)];
     return Target{Target::Kind::alias, first_[std::size_t(scope)] + i, 0};
   }
-  const int n = d.find_node(r.parts[0]);
+  const auto [n, parts] = d.find_node(std::span(r.parts));
   if (n < 0) {
     if (faults_.full()) return std::nullopt;
     auto names = names_of(d.nodes);
@@ -86,8 +86,8 @@ std::optional<Target> Lookup::find(const Reference& r, int scope, TextPosition p
     return std::nullopt;
   }
   const auto& place = s.places[std::size_t(n)];
-  return place.graph ? in_graph(r, 1, place.index, position, path, wanted)
-                     : in_node(r, 1, place.index, position, path, wanted);
+  return place.graph ? in_graph(r, parts, place.index, position, path, wanted)
+                     : in_node(r, parts, place.index, position, path, wanted);
 }
 
 std::optional<Target> Lookup::in_node(const Reference& r, std::size_t at, int node, TextPosition position,
@@ -150,10 +150,10 @@ std::optional<Target> Lookup::in_graph(const Reference& r, std::size_t at, int s
     }
     return Target{Target::Kind::alias, first_[std::size_t(scope)] + int(d.inputs.size()) + output, 0};
   }
-  if (const int n = d.find_node(r.parts[at]); n >= 0) {
+  if (const auto [n, parts] = d.find_node(std::span(r.parts).subspan(at)); n >= 0) {
     const auto& place = s.places[std::size_t(n)];
-    return place.graph ? in_graph(r, at + 1, place.index, position, path, wanted)
-                       : in_node(r, at + 1, place.index, position, path, wanted);
+    return place.graph ? in_graph(r, at + parts, place.index, position, path, wanted)
+                       : in_node(r, at + parts, place.index, position, path, wanted);
   }
   faults_.error(position, path, fmt::format("graph node '{}' has no output '{}'", written(r, at), r.parts[at]),
                 {possibilities("it has", r.parts[at], names_of(d.outputs))});

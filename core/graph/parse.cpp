@@ -34,6 +34,7 @@ class Parser {
     section(json, "inputs", [&](const JsonMember& m) { input(d, m); });
     section(json, "params", [&](const JsonMember& m) { param(d, m); });
     section(json, "nodes", [&](const JsonMember& m) { node(d, m); });
+    for (const auto& n : d.nodes) stands_alone(d, n);
     section(json, "outputs", [&](const JsonMember& m) { output(d, m); });
     if (!json.find("outputs"))
       faults_.error(json.position, "", "a graph needs \"outputs\"",
@@ -101,8 +102,8 @@ class Parser {
     for (const auto& m : j->members) each(m);
   }
 
-  bool named(const JsonMember& m, const std::string& path) {
-    if (is_identifier(m.key)) return true;
+  bool named(const JsonMember& m, const std::string& path, bool dotted = false) {
+    if (dotted ? !split_path(m.key).empty() : is_identifier(m.key)) return true;
     faults_.error(m.key_position, path, fmt::format("'{}' cannot be a name", m.key),
                   {"a name is a small letter, then small letters, digits and _"});
     return false;
@@ -151,7 +152,7 @@ class Parser {
   }
 
   void node(Document& d, const JsonMember& m) {
-    if (!named(m, "nodes") || !kind(m.value, Json::Kind::object, m.key, "a node")) return;
+    if (!named(m, "nodes", true) || !kind(m.value, Json::Kind::object, m.key, "a node")) return;
     if (const int i = d.find_input(m.key); i >= 0) {
       faults_.error(m.key_position, m.key, fmt::format("'{}' is both an input and a node", m.key),
                     {fmt::format("the input is at {}", faults_.sources().place(d.inputs[std::size_t(i)].position))});
@@ -180,6 +181,16 @@ class Parser {
       for (const auto& s : set->members) n.set.push_back({s.key, s.key_position, s.value});
     d.node_index.emplace(m.key, int(d.nodes.size()));
     d.nodes.push_back(std::move(n));
+  }
+
+  // "a.b" would be a port of "a" too.
+  void stands_alone(const Document& d, const NodeSpec& n) {
+    for (auto dot = n.name.find('.'); dot != n.name.npos; dot = n.name.find('.', dot + 1)) {
+      const std::string front = n.name.substr(0, dot);
+      if (d.find_node(front) >= 0 || d.find_input(front) >= 0)
+        faults_.error(n.position, n.name, fmt::format("'{}' cannot be a name beside '{}'", n.name, front),
+                      {fmt::format("'{}' would be a port of '{}'", n.name, front)});
+    }
   }
 
   void output(Document& d, const JsonMember& m) {
@@ -248,6 +259,15 @@ class Parser {
 };
 
 }  // namespace
+
+Document::Found Document::find_node(std::span<const std::string> path) const {
+  std::string front;
+  for (std::size_t parts = 1; parts <= path.size(); ++parts) {
+    front += (parts > 1 ? "." : "") + path[parts - 1];
+    if (const int node = find_node(front); node >= 0) return {node, parts};
+  }
+  return {};
+}
 
 std::optional<Document> parse_document(const Json& json, Faults& faults) { return Parser(faults).document(json); }
 

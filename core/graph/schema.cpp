@@ -18,12 +18,13 @@ namespace {
 using J = nlohmann::ordered_json;
 
 constexpr const char* kName = "^[a-z][a-z0-9_]*$";
+constexpr const char* kDottedName = "^[a-z][a-z0-9_]*(\\.[a-z][a-z0-9_]*)*$";
 
 J ref(const std::string& definition) { return {{"$ref", "#/definitions/" + definition}}; }
-J map_of(J values, const std::string& description) {
+J map_of(J values, const std::string& description, const char* name = kName) {
   return {{"type", "object"},
           {"description", description},
-          {"propertyNames", {{"pattern", kName}}},
+          {"propertyNames", {{"pattern", name}}},
           {"additionalProperties", std::move(values)}};
 }
 // In a variant null removes.
@@ -172,7 +173,7 @@ std::string graph_schema(Registry& registry) {
       "Roles that a sequence provides, with their types; ? for optional.");
   properties["params"] =
       map_of({{"type", {"number", "string", "boolean", "array", "null"}}}, "Values that nodes take as \"$name\".");
-  properties["nodes"] = map_of(or_null(ref("node")), "Nodes by name.");
+  properties["nodes"] = map_of(or_null(ref("node")), "Nodes by name.", kDottedName);
   properties["outputs"] = map_of(or_null(ref("wire")), "What is written.");
   properties["outputs"]["minProperties"] = 1;
   properties["set"] = {{"type", "object"}, {"description", "Of a variant: values, by level0.node.parameter."}};

@@ -124,17 +124,24 @@ bool overridden(const Change& change, const Json& over) {
   const auto below = [](const Json* json, const std::string& key) { return json ? json->find(key) : nullptr; };
   const auto& target = change.target;
   if (change.kind == Change::Kind::set && target.size() == 1) return below(over.find("params"), target[0]);
-  const Json* node = below(over.find("nodes"), target[0]);
+  const Json* node = nullptr;
+  std::string name;  // it may have dots
+  std::size_t parts = 0;
+  for (; parts < target.size() && !node; ++parts) {
+    name += (parts ? "." : "") + target[parts];
+    node = below(over.find("nodes"), name);
+  }
   if (!node || node->is(Json::Kind::null)) return node;
+  const std::size_t behind = target.size() - parts;
   switch (change.kind) {
     case Change::Kind::set:
-      return target.size() == 2 && below(below(node, "set"), target[1]);
+      return behind == 1 && below(below(node, "set"), target.back());
     case Change::Kind::wire:
-      return target.size() == 2 && below(below(node, "in"), target[1]);
+      return behind == 1 && below(below(node, "in"), target.back());
     case Change::Kind::swap:
-      return target.size() == 1 && (below(node, "type") || below(node, "graph"));
+      return behind == 0 && (below(node, "type") || below(node, "graph"));
     case Change::Kind::bypass:
-      return target.size() == 1 && below(node, "bypass");
+      return behind == 0 && below(node, "bypass");
   }
   return false;
 }
