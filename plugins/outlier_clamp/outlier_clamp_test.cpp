@@ -117,6 +117,24 @@ TEST(OutlierClampProperty, FindsWhatStatisticsWithTheCentreCannot) {
   });
 }
 
+TEST(OutlierClampProperty, LeavesAllAloneWithinAWideRange) {
+  for_each_target([&] {
+    const auto image = noise_image(33, 9, 3, 5);
+    for (const char* mode : {"channel", "luminance"})
+      for (const bool exclude : {true, false}) {
+        const auto out = Node("outlier_clamp")
+                             .set("k", 1e6f)
+                             .set("mode", mode)
+                             .set("exclude_center", exclude)
+                             .in("image", image)
+                             .run("image");
+        for (int c = 0; c < 3; ++c)
+          for (int y = 0; y < 9; ++y)
+            for (int x = 0; x < 33; ++x) EXPECT_EQ(out.at(c, x, y), image.at(c, x, y)) << mode << exclude;
+      }
+  });
+}
+
 TEST(OutlierClampProperty, KeepsWhatIsConstant) {
   for_each_target([&] {
     const auto image = constant_image(33, 9, 3, 0.3f);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <functional>
 
 namespace quell::test {
 namespace {
@@ -48,7 +49,10 @@ std::vector<Setting> settings(const NodeType& type) {
 }
 
 // Random pairs of pixels of images that a renderer might give, or of one value throughout.
-std::vector<double> pair_weights(const std::string& name, const Setting& setting, const char* falloff, bool constant) {
+// With `change`, what it does to the node and its images comes before.
+using Change = std::function<void(Node&, Image&, int type)>;
+std::vector<double> pair_weights(const std::string& name, const Setting& setting, const char* falloff, bool constant,
+                                 const Change& change = {}) {
   Node node(name);
   for (const auto& [param, choice] : setting) node.set(param, choice);
   if (falloff) node.set("falloff", std::string(falloff));
@@ -60,6 +64,7 @@ std::vector<double> pair_weights(const std::string& name, const Setting& setting
     if (constant)
       for (int c = 0; c < image.channels(); ++c)
         for (int y = 0; y < kHeight; ++y) std::fill_n(image.row(c, y), kWidth, image.at(c, 4, 4));
+    if (change) change(node, image, type);
     node.in(port.name, image);
   }
   std::vector<double> list;
@@ -109,6 +114,43 @@ TEST_P(Falloffs, FallAndAreNeverNegative) {
       }
     }
   });
+}
+
+// P4 for weights: in a measure that is smaller by a power of two all distances are larger, and so are the thresholds of
+// the same measure; then the weights are the same, to the bit. Which parameters these are the test finds out: there
+// must be a set of them for each setting.
+TEST_P(Falloffs, KnowNoUnit) {
+  const auto& type = *registry().find(GetParam());
+  const auto* p = falloff_param(type);
+  std::vector<std::string> numbers;
+  for (const auto& param : type.params())
+    if (param.kind == QUELL_FLOAT) numbers.emplace_back(param.name);
+  const Instance defaults(type);
+  const auto weights_in_measure = [&](const Setting& setting, const char* falloff, unsigned scaled, float scale) {
+    return pair_weights(GetParam(), setting, falloff, false, [&](Node& node, Image& image, int image_type) {
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (scaled >> i & 1u) node.set(numbers[i], scale * defaults.get_float(type.find_param(numbers[i])));
+      const bool directions = image_type == QUELL_NORMAL, counted = image_type == QUELL_ID;
+      if (directions || counted) return;
+      const float by = image_type == QUELL_VARIANCE ? scale * scale : scale;
+      for (int c = 0; c < image.channels(); ++c)
+        for (int y = 0; y < kHeight; ++y)
+          for (int x = 0; x < kWidth; ++x) image.at(c, x, y) *= by;
+    });
+  };
+  for (const auto& setting : settings(type)) {
+    bool found = false;
+    for (unsigned scaled = 0; scaled < 1u << numbers.size() && !found; ++scaled) {
+      found = true;
+      for (int c = 0; c < (p ? p->choice_count : 1); ++c)
+        for (const float scale : {0.5f, 4.0f}) {
+          const char* falloff = p ? p->choices[c] : nullptr;
+          found = found && weights_in_measure(setting, falloff, scaled, scale) ==
+                               weights_in_measure(setting, falloff, scaled, 1);
+        }
+    }
+    EXPECT_TRUE(found) << (setting.empty() ? "" : setting[0].second);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Falloffs, testing::ValuesIn(weights()), [](const auto& i) { return i.param; });

@@ -82,24 +82,38 @@ TEST_P(SpatialFilter, LeavesAConstantImageAlone) {
   });
 }
 
-// P3: no weight is negative, so nothing leaves the range of the input.
-TEST_P(SpatialFilter, StaysInTheRangeOfItsInput) {
+// How far the filtered image is read.
+quell_reach reach_of(const NodeType& type, const Setting& setting) {
+  Instance instance(type);
+  for (std::size_t i = 0; i < type.params().size(); ++i)
+    for (int c = 0; c < type.params()[i].choice_count; ++c)
+      if (setting == Setting(type.params()[i].name, type.params()[i].choices[c])) instance.set_int(int(i), c);
+  return instance.reach()[std::size_t(type.outputs()[0].passes)];
+}
+
+// P3: no weight is negative, so nothing leaves the range of what is read around the pixel.
+TEST_P(SpatialFilter, StaysInTheRangeOfItsWindow) {
   const auto image = picture(101);
   each_setting([&](const Setting& s) {
     const auto out = run(image, s);
-    for (int c = 0; c < 3; ++c) {
-      float low = HUGE_VALF, high = 0;
-      for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x)
-          low = std::min(low, image.at(c, x, y)), high = std::max(high, image.at(c, x, y));
-      // Where a colour is scaled as a whole, a channel may fall below all others of its kind, but not below 0.
-      const bool scales = type().inputs()[0].type == QUELL_RADIANCE;
-      for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x) {
-          ASSERT_GE(out.at(c, x, y), scales ? 0 : low * (1 - 1e-5f)) << x << "," << y;
-          ASSERT_LE(out.at(c, x, y), high * (1 + 1e-5f)) << x << "," << y;
+    const auto reach = reach_of(type(), s);
+    ASSERT_EQ(reach.anywhere, 0);
+    // What takes radiance may scale a colour as a whole, or mix its channels: these keep to each other's range, and a
+    // channel may fall below all others of its kind, but not below 0.
+    const bool colors = filtered(type())->type == QUELL_RADIANCE;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        float low[3] = {HUGE_VALF, HUGE_VALF, HUGE_VALF}, high[3] = {};
+        for (int v = std::max(0, y - reach.up); v <= std::min(kHeight - 1, y + reach.down); ++v)
+          for (int u = std::max(0, x - reach.left); u <= std::min(kWidth - 1, x + reach.right); ++u)
+            for (int c = 0; c < 3; ++c)
+              low[c] = std::min(low[c], image.at(c, u, v)), high[c] = std::max(high[c], image.at(c, u, v));
+        for (int c = 0; c < 3; ++c) {
+          ASSERT_GE(out.at(c, x, y), colors ? 0 : low[c] * (1 - 1e-5f)) << x << "," << y;
+          ASSERT_LE(out.at(c, x, y), (colors ? *std::max_element(high, high + 3) : high[c]) * (1 + 1e-5f))
+              << x << "," << y;
         }
-    }
+      }
   });
 }
 
@@ -150,6 +164,26 @@ TEST_P(SpatialFilter, CommutesWithFlips) {
   }
 }
 
+// P5 again: rows and columns are alike, so a filter of one direction is that of the other on the transposed image.
+TEST_P(SpatialFilter, CommutesWithTransposition) {
+  const auto image = picture(109);
+  Image turned(kHeight, kWidth, 3);
+  for (int c = 0; c < 3; ++c)
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) turned.at(c, y, x) = image.at(c, x, y);
+  each_setting([&](const Setting& s) {
+    Node other(GetParam());
+    if (!s.first.empty()) other.set(s.first, s.second);
+    if (type().find_param("direction") >= 0)
+      other.set("direction", std::string(s.second == "vertical" ? "horizontal" : "vertical"));
+    const auto out = run(image, s), across = std::move(other.in(filtered(type())->name, turned).run()[0]);
+    for (int c = 0; c < 3; ++c)
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+          ASSERT_NEAR(across.at(c, y, x), out.at(c, x, y), 1e-5 * std::abs(out.at(c, x, y)) + 1e-6) << x << "," << y;
+  });
+}
+
 INSTANTIATE_TEST_SUITE_P(All, SpatialFilter, testing::ValuesIn(filters()), [](const auto& i) { return i.param; });
 
 // P6: a filter under a weight that shuts out every neighbour gives its input.
@@ -177,23 +211,52 @@ std::vector<std::string> weighted() {
 }
 INSTANTIATE_TEST_SUITE_P(All, WeightedFilter, testing::ValuesIn(weighted()), [](const auto& i) { return i.param; });
 
-// The gain of white noise through N levels of the plain B3 kernel, §3.2 of the wavelet's theory: Σ k² of the cascade.
-TEST(Cascade, HasTheGainsOfB3) {
-  const double gains[] = {0.0747681, 0.0152459, 0.00364327};
-  Image impulse(129, 129, 1);
-  impulse.at(0, 64, 64) = 1;
-  for (int level = 0; level < 3; ++level) {
+// What N levels of the plain kernel make of an impulse, §3.2 of the wavelet's theory.
+struct Cascade {
+  double sum = 0, gain = 0, spread = 0;  // Σ k, Σ k² (the gain of white noise) and the variance along x, pixels²
+  int support = 0;                       // pixels along x
+};
+std::vector<Cascade> cascades(const std::string& kernel, int levels) {
+  constexpr int kSize = 259, kMiddle = 129;
+  std::vector<Cascade> list;
+  Image impulse(kSize, kSize, 1);
+  impulse.at(0, kMiddle, kMiddle) = 1;
+  for (int level = 0; level < levels; ++level) {
     Node node("atrous");
-    impulse = node.set("step", 1 << level).in("image", impulse).run("image");
-    double sum = 0, gain = 0, spread = 0;
-    for (int y = 0; y < 129; ++y)
-      for (int x = 0; x < 129; ++x) {
+    impulse = node.set("step", 1 << level).set("kernel", kernel).in("image", impulse).run("image");
+    auto& found = list.emplace_back();
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) {
         const double k = impulse.at(0, x, y);
-        sum += k, gain += k * k, spread += k * (x - 64) * (x - 64);
+        found.sum += k, found.gain += k * k, found.spread += k * (x - kMiddle) * (x - kMiddle);
+        found.support += y == kMiddle && k > 0;
       }
-    EXPECT_NEAR(sum, 1, 1e-6) << level;
-    EXPECT_NEAR(gain / gains[level], 1, 1e-5) << level;
-    EXPECT_NEAR(spread, (std::pow(4.0, level + 1) - 1) / 3, 1e-4) << level;
+  }
+  return list;
+}
+
+TEST(Cascade, HasTheGainsOfB3) {
+  const double gains[] = {0.0747681, 0.0152459, 0.00364327, 9.00883e-4, 2.24609e-4};
+  const auto found = cascades("b3", 5);
+  for (int n = 1; n <= 5; ++n) {
+    const auto& c = found[std::size_t(n - 1)];
+    EXPECT_NEAR(c.sum, 1, 1e-6) << n;
+    EXPECT_NEAR(c.gain / gains[n - 1], 1, 1e-5) << n;
+    EXPECT_NEAR(c.spread / ((std::pow(4.0, n) - 1) / 3), 1, 1e-5) << n;
+    EXPECT_EQ(c.support, 4 * ((1 << n) - 1) + 1) << n;
+  }
+}
+
+// The binomial spreads half as far as B3, the box two thirds.
+TEST(Cascade, OfOtherKernelsSpreadsLess) {
+  for (const auto& [kernel, share] : {std::pair{"binomial", 1 / 2.0}, {"box", 2 / 3.0}}) {
+    const auto found = cascades(kernel, 5);
+    for (int n = 1; n <= 5; ++n) {
+      const auto& c = found[std::size_t(n - 1)];
+      EXPECT_NEAR(c.sum, 1, 1e-5) << kernel << n;
+      EXPECT_NEAR(c.spread / (share * (std::pow(4.0, n) - 1) / 3), 1, 1e-5) << kernel << n;
+      EXPECT_EQ(c.support, 2 * ((1 << n) - 1) + 1) << kernel << n;
+    }
   }
 }
 

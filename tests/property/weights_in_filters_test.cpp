@@ -1,5 +1,6 @@
 // Every weight node works in every filter that takes weights: found from the tables alone, so that a new plugin of
 // either kind is held to this by being there.
+#include "tests/support/altered_frames.h"
 #include "tests/support/run_node.h"
 #include "tests/support/typical_input.h"
 #include "tests/support/weight_oracle.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <functional>
 
 namespace quell::test {
 namespace {
@@ -39,7 +41,8 @@ std::vector<std::string> weights() {
 // are alike enough to count.
 class Wired {
  public:
-  Wired(const std::string& type, bool smooth, bool constant = false) : node_(type) {
+  using Alter = std::function<Image(const Image&, int type)>;
+  Wired(const std::string& type, bool smooth, bool constant = false, const Alter& alter = {}) : node_(type) {
     std::uint32_t seed = 5;
     for (const auto& port : node_.type().inputs()) {
       if (port.type == QUELL_WEIGHT) continue;
@@ -51,6 +54,7 @@ class Wired {
       if (image_type == QUELL_DEPTH && smooth) image = noise_image(kWidth, kHeight, 1, 8, 5.0f, 5.01f);
       if (image_type == QUELL_COUNT) image.fill(1);  // all pixels young: all are filtered
       if (constant && image_type == QUELL_RADIANCE) image.fill(0.75f);
+      if (alter) image = alter(image, image_type);
       node_.in(port.name, image);
     }
   }
@@ -109,6 +113,19 @@ TEST_P(WeightsInFilters, CommuteWithOthers) {
     const auto a = first.node().in(port(), w.node()).in(port(), o.node()).run();
     const auto b = second.node().in(port(), o.node()).in(port(), w.node()).run();
     EXPECT_LE(largest_difference(a[0], [&](int c, int x, int y) { return double(b[0].at(c, x, y)); }), 1e-5) << other;
+  }
+}
+
+// Image and guides in a mirror: the result in that mirror. Sums are taken in another order.
+TEST_P(WeightsInFilters, CommuteWithFlips) {
+  Wired w(weight(), true), f(filter(), true);
+  const auto out = f.node().in(port(), w.node()).run();
+  for (const bool horizontal : {true, false}) {
+    const auto mirror = [&](const Image& image, int type) { return mirrored(image, type, horizontal); };
+    Wired mirrored_weight(weight(), true, false, mirror), mirrored_filter(filter(), true, false, mirror);
+    const auto other = mirrored_filter.node().in(port(), mirrored_weight.node()).run();
+    const Image back = mirrored(other[0], QUELL_RADIANCE, horizontal);
+    EXPECT_LE(largest_difference(out[0], [&](int c, int x, int y) { return double(back.at(c, x, y)); }), 1e-5);
   }
 }
 
