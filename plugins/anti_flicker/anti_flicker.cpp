@@ -28,7 +28,7 @@ struct AntiFlicker {
           "d / (d + high − low), 0 to 1, where luma (R + 2G + B)/4 of the current frame ranges from low to high around "
           "the pixel and that of history lies d from the nearer end; 1 where all are equal. For temporal_blend.");
     d.param(radius, "radius", "Half-width of the neighbourhood, pixels.").range(1, 16);
-    d.param(k, "k", "The range is mean ± k·sigma of the neighbourhood.").range(0, 1e6);
+    d.param(k, "k", "Half-width of the range about the mean of the neighbourhood, standard deviations.").range(0, 1e6);
     d.param(compress, "compress", "Take luma on the scale of log(1 + x), as temporal_clamp with compress does.");
   }
 

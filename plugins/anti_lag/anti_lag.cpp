@@ -29,7 +29,8 @@ struct AntiLagNode {
     d.out(shortened, "count", "The count, smaller where light changed, never below 1.").passes(count);
     d.param(radius, "radius", "Half-width of the window, pixels; no edges are seen.").range(1, 32);
     d.param(deviations, "deviations", "Difference that noise may make, standard errors.").range(0, 100);
-    d.param(strength, "strength", "How fast history goes with the relative difference beyond that.").range(0, 100);
+    d.param(strength, "strength", "How fast history goes: multiplies the relative difference beyond that.")
+        .range(0, 100);
   }
 
   void run(const quell::Tile& tile) const {

@@ -19,7 +19,7 @@ struct AutoExposure {
     d.in(blocks, "blocks", "Averages of blocks, as `block_average` gives them. Those up to 1e-8 do not count.")
         .anywhere();
     d.out(stops, "stops", "Stops for `exposure`; 0 where no block counts.");
-    d.param(key, "key", "What the average becomes: 0.18 is a grey card.").range(1e-6, 1e6);
+    d.param(key, "key", "What the average becomes, radiance: 0.18 is a grey card.").range(1e-6, 1e6);
   }
 
   void run(const quell::Tile& tile) const {

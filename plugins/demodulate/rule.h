@@ -23,8 +23,8 @@ struct Rule {
         "neighbours. asymmetric: divides by max(albedo, 0.001) and multiplies by albedo itself, as Falcor does; what "
         "has no albedo comes out black, so modulate is no inverse there.",
         {"clip", "classic", "asymmetric"});
-    d.param(floor, "floor", "Smallest divisor of mode clip.").range(1e-4, 1);
-    d.param(ceiling, "ceiling", "Largest divisor of mode clip.").range(1, 100);
+    d.param(floor, "floor", "Smallest divisor of mode clip, albedo.").range(1e-4, 1);
+    d.param(ceiling, "ceiling", "Largest divisor of mode clip, albedo.").range(1, 100);
   }
 };
 

@@ -22,10 +22,10 @@ struct DetailSynthesis {
         "β_i d_i with the details d_i = c_i − c_{i+1}");
     d.in(levels, "levels", "c_0, the input of the transform, then the output of each level, c_1 … c_N; N at most 8.");
     d.out(image, "image", "c_N + Σ share_i (c_i − c_{i+1}), raised to 0 where shares that rise leave less.");
-    d.param(
-         share, "share",
-         "Of each detail, the finest first; those beyond N are not used. All 0: the last level. All 1: the first, to "
-         "the bit.")
+    d.param(share, "share",
+            "Share of each detail, the finest first; those beyond N are not used. All 0: the last level. All 1: the "
+            "first, to "
+            "the bit.")
         .range(0.0f, 1.0f);
   }
 

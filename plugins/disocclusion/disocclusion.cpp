@@ -59,13 +59,13 @@ struct Disocclusion {
             "Leave valid pixels of the 3×3 in the mask where no tap is valid, so that their mean is taken. If not, the "
             "mask is 0 there and the pixel starts anew.");
     d.param(depth_tolerance, "depth_tolerance",
-            "Depths agree within depth_tolerance·(|slope x| + |slope y| + depth_floor·depth).")
+            "Depths agree within depth_tolerance times |slope x| + |slope y| + depth_floor·depth.")
         .range(0, 1e6);
     d.param(depth_floor, "depth_floor", "Share of the depth that counts as slope, for surfaces that face the camera.")
         .range(0, 1);
     d.param(normal_cosine, "normal_cosine", "Least cosine between normals that agree.").range(-1, 1);
     d.param(plane_tolerance, "plane_tolerance",
-            "Positions agree within plane_tolerance·depth of the plane that the surface lies in now.")
+            "Positions agree within plane_tolerance, a share of the depth, of the plane that the surface lies in now.")
         .range(0, 1e6);
   }
 

@@ -31,7 +31,7 @@ struct FalseColor {
     d.param(scale.logarithmic, "log", "Spreads log2 of the numbers, in place of the numbers, over the colours.");
     d.param(scale.low, "low", "What gets the first colour: a number of the image's unit or, with `log`, its log2.")
         .range(-1e30, 1e30);
-    d.param(scale.high, "high", "What gets the last colour, likewise.").range(-1e30, 1e30);
+    d.param(scale.high, "high", "What gets the last colour, in the same unit.").range(-1e30, 1e30);
   }
 
   void shapes(const quell_spec& spec, quell_shape*) const {

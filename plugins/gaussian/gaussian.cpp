@@ -22,6 +22,9 @@ struct Gaussian {
 
   void describe(quell::Describe& d) {
     d.summary("Blurs by a gaussian, binomial or box kernel, renormalised at the border of the image.");
+    d.source(
+        "The kernel divided by its part inside the image: Knutsson and Westin 1993, Normalized and Differential "
+        "Convolution.");
     d.in(image, "image", "What is blurred; any number of channels.").halo(reach());
     d.out(blurred, "image", "Mean over the pixels of the kernel that lie in the image.").passes(image);
     d.param(kernel, "kernel",

@@ -32,7 +32,7 @@ struct HistoryFix {
     d.out(fixed, "image",
           "Σ w c / Σ w over the taps inside the image where count ≤ frames; elsewhere the image, to the bit.")
         .passes(image);
-    d.param(frames, "frames", "Largest count that is still fixed.").range(0, 8);
+    d.param(frames, "frames", "Largest count that is still fixed, frames.").range(0, 8);
     d.param(stride, "stride",
             "Pixels from tap to tap are stride / (1 + count), rounded, and 1 at least: 7, 5 and 4 for the first three "
             "frames.")

@@ -23,7 +23,7 @@ struct HistoryLength {
     d.in(motion, "motion", "Pixels, previous − current.");
     d.in(taps, "taps", "Weights by disocclusion; the count is averaged by them just as reproject averages images.");
     d.out(count, "count", "Frames accumulated, 1 to max; not whole between histories of unlike length.");
-    d.param(max, "max", "Where counting ends.").range(1, 65536);
+    d.param(max, "max", "Where counting ends, frames.").range(1, 65536);
   }
 
   void run(const quell::Tile& tile) const {

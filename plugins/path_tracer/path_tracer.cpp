@@ -72,7 +72,7 @@ struct PathTracer {
     d.param(height, "height", "Height of the image, pixels.").range(1, 16384);
     d.param(spp, "spp", "Samples per pixel.").range(1, 1 << 20);
     d.param(seed, "seed", "Chooses the noise; frames and pixels always differ.").range(0, 0x7fffffff);
-    d.param(max_bounces, "max_bounces", "How often a path may scatter; 1 is direct light only.").range(0, 1000);
+    d.param(max_bounces, "max_bounces", "How many times a path may scatter; 1 is direct light only.").range(0, 1000);
     d.param(
          clamp, "clamp",
          "Largest channel that one sample may have, radiance; 0 is no limit. A limit removes fireflies and with them "

@@ -30,7 +30,7 @@ struct PercentileClamp {
     d.param(size, "size", "Side of the clusters, pixels. They lie side by side from the top left corner.").range(2, 64);
     d.param(low, "low", "Lower percentile P, a share: of n values sorted, number low · (n − 1), rounded down, from 0.")
         .range(0.0f, 1.0f);
-    d.param(high, "high", "Upper percentile, likewise; not below the lower.").range(0.0f, 1.0f);
+    d.param(high, "high", "Upper percentile, a share likewise; not below the lower.").range(0.0f, 1.0f);
     d.param(k, "k", "How far above the upper percentile the cap lies, in distances of the two.").range(0.0f, 1000.0f);
   }
 

@@ -30,7 +30,8 @@ struct Sanitize {
             "neighbours: the mean of the good pixels among the eight around, 0 where none is. zero: 0. error: the run "
             "ends and names the pixel.",
             {"neighbours", "zero", "error"});
-    d.param(limit, "limit", "Magnitude beyond which a number is bad; the default is the largest half float.")
+    d.param(limit, "limit",
+            "Magnitude beyond which a number is bad, in units of the image; the default is the largest half float.")
         .range(0.0f, 3.4e38f);
     d.param(negative, "negative", "Whether negative numbers are good. Set it to false for radiance and variance.");
   }

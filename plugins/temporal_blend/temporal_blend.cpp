@@ -23,7 +23,7 @@ struct TemporalBlend {
     d.in(count, "count", "Frames accumulated, this one included (history_length).");
     d.in(factor, "factor", "What alpha is multiplied by, pixel by pixel, 0 to 1: anti_flicker's.").optional();
     d.out(blended, "image", "The average so far.").passes(current);
-    d.param(alpha, "alpha", "Weight of this frame once warmed up.").range(0, 1);
+    d.param(alpha, "alpha", "Weight of this frame once warmed up: its share of the average.").range(0, 1);
     d.param(warm_up, "warm_up",
             "Give the first frames equal weights, so that the result is their mean until 1/count < alpha.");
   }

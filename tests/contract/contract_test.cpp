@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -120,12 +121,31 @@ class Contract : public testing::TestWithParam<std::string> {
 
 bool is_sentence(std::string_view text) { return text.size() > 5 && text.back() == '.'; }
 
+bool is_number(const quell_param& p) { return p.kind == QUELL_INT || p.kind == QUELL_FLOAT || p.kind == QUELL_FLOATS; }
+// What numbers are counted in, be it a share or a multiple.
+bool names_its_unit(const char* doc) {
+  std::string text(doc);
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  constexpr std::string_view kUnits[] = {"pixel",       "frames",      "sample",         "channel",
+                                         "times",       "multiplies",  "share",          "cosine",
+                                         "radians",     "stops",       "unit of",        "units of",
+                                         "unit or",     "same unit",   "image's unit",   "albedo",
+                                         "radiance",    "scene units", "standard error", "standard deviation",
+                                         "distances of"};
+  return std::ranges::any_of(kUnits, [&](auto unit) { return text.find(unit) != text.npos; });
+}
+
 TEST_P(Contract, IsDocumented) {
   EXPECT_EQ(type().name(), GetParam()) << "a library is called after its node";
   EXPECT_PRED1(is_sentence, type().table().summary);
   for (const auto& p : type().inputs()) EXPECT_PRED1(is_sentence, p.doc) << "input " << p.name;
   for (const auto& p : type().outputs()) EXPECT_PRED1(is_sentence, p.doc) << "output " << p.name;
-  for (const auto& p : type().params()) EXPECT_PRED1(is_sentence, p.doc) << "parameter " << p.name;
+  for (const auto& p : type().params()) {
+    EXPECT_PRED1(is_sentence, p.doc) << "parameter " << p.name;
+    if (is_number(p)) {
+      EXPECT_PRED1(names_its_unit, p.doc) << "parameter " << p.name;
+    }
+  }
 }
 
 TEST_P(Contract, BoundsItsParameters) {
