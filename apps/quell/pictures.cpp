@@ -33,24 +33,22 @@ SequenceOptions sequence_options(const std::string& text, const OpenPictures& op
   return options;
 }
 
-// The part that gives these roles of a sequence, each under the name that it goes by here.
-std::optional<JoinedSource::Part> part_of(Commander& commander, const Sequence& sequence,
-                                          const SequenceOptions& options, const std::string& label,
-                                          const std::map<std::string, std::string>& roles, const OpenPictures& open) {
-  JoinedSource::Part part{label, nullptr, roles, false, {}};
+// Adds the part that gives these roles of a sequence, each under the name that it goes by here; nullptr when it cannot.
+JoinedSource::Part* add_part(Commander& commander, const Sequence& sequence, const SequenceOptions& options,
+                             const std::string& label, const std::map<std::string, std::string>& roles,
+                             const OpenPictures& open, std::vector<JoinedSource::Part>& parts) {
   std::vector<std::string> theirs;
   for (const auto& [here, there] : roles) theirs.push_back(there);
-  part.source = commander.open(sequence, options, theirs, open.threads, open.cancel);
-  if (!part.source || !commander.diagnostics().ok()) return std::nullopt;
-  return part;
+  auto source = commander.open(sequence, options, theirs, open.threads, open.cancel);
+  if (!source || !commander.diagnostics().ok()) return nullptr;
+  return &parts.emplace_back(JoinedSource::Part{label, std::move(source), roles, false, {}});
 }
 
-std::optional<JoinedSource::Part> plain_part(Commander& commander, const std::string& text, const std::string& label,
-                                             const std::string& role, const OpenPictures& open) {
+void add_plain(Commander& commander, const std::string& text, const std::string& label, const std::string& role,
+               const OpenPictures& open, std::vector<JoinedSource::Part>& parts) {
   const Sequence sequence = pictures(text, wanted(open.frames));
-  auto part = part_of(commander, sequence, {}, label, {{role, "color"}}, open);
-  if (part) part->still = !sequence.inputs.front().file.numbered();
-  return part;
+  if (auto* part = add_part(commander, sequence, {}, label, {{role, "color"}}, open, parts))
+    part->still = !sequence.inputs.front().file.numbered();
 }
 
 }  // namespace
@@ -70,49 +68,50 @@ bool is_sequence(const std::string& text) {
   return text.find_first_of("/.#@%") == std::string::npos && !std::filesystem::exists(text, error);
 }
 
-std::optional<JoinedSource::Part> open_pictures(Commander& commander, const std::string& text, const std::string& label,
-                                                const std::string& role, const OpenPictures& open) {
-  if (!is_sequence(text)) return plain_part(commander, text, label, role, open);
+void open_pictures(Commander& commander, const std::string& text, const std::string& label, const std::string& role,
+                   const OpenPictures& open, std::vector<JoinedSource::Part>& parts) {
+  if (!is_sequence(text)) return add_plain(commander, text, label, role, open, parts);
   const auto options = sequence_options(text, open);
-  const auto sequence = commander.load(options);
-  if (!sequence) return std::nullopt;
-  return part_of(commander, *sequence, options, label, {{role, "color"}}, open);
+  if (const auto sequence = commander.load(options))
+    add_part(commander, *sequence, options, label, {{role, "color"}}, open, parts);
 }
 
-std::optional<JoinedSource::Part> open_reference(Commander& commander, const std::string& text,
-                                                 const std::string& label, const OpenPictures& open) {
-  if (!is_sequence(text)) return plain_part(commander, text, label, "reference", open);
+void open_reference(Commander& commander, const std::string& text, const std::string& label, const OpenPictures& open,
+                    std::vector<JoinedSource::Part>& parts) {
+  if (!is_sequence(text)) return add_plain(commander, text, label, "reference", open, parts);
   const auto options = sequence_options(text, open);
   auto sequence = commander.load(options);
-  if (!sequence) return std::nullopt;
-  if (sequence->reference_source) {
-    sequence->source = std::move(sequence->reference_source);
-    return part_of(commander, *sequence, options, label, {{"reference", "color"}}, open);
+  if (!sequence) return;
+  for (const auto& half : sequence->reference_sources) {
+    sequence->source = half.node;
+    add_part(commander, *sequence, options, label, {{half.role, "color"}}, open, parts);
   }
+  if (!sequence->reference_sources.empty()) return;
   std::map<std::string, std::string> roles;
   for (const auto& reference : sequence->references) roles[reference.role] = reference.role;
-  if (roles.empty()) return part_of(commander, *sequence, options, label, {{"reference", "color"}}, open);
-  auto part = part_of(commander, *sequence, options, label, roles, open);
-  if (!part) return part;
+  const bool own = !roles.empty();
+  if (!own) roles["reference"] = "color";
+  auto* part = add_part(commander, *sequence, options, label, roles, open, parts);
+  if (!part || !own) return;
   part->sparse = static_cast<FileSequence&>(*part->source).reference_frames();
   if (part->sparse.empty())
     throw Error(Exit::input, fmt::format("{}: no frame has all its reference's files, the first of which would be {}",
                                          label, sequence->references[0].file.path(sequence->frames[0])));
-  return part;
 }
 
-std::optional<JoinedSource::Part> open_features(Commander& commander, const std::string& text, const std::string& label,
-                                                const std::set<std::string>& roles, const OpenPictures& open) {
+void open_features(Commander& commander, const std::string& text, const std::string& label,
+                   const std::set<std::string>& roles, const OpenPictures& open,
+                   std::vector<JoinedSource::Part>& parts) {
   const auto options = sequence_options(text, open);
   const auto sequence = commander.load(options);
-  if (!sequence) return std::nullopt;
+  if (!sequence) return;
   auto there = sequence->roles();
   if (sequence->source)
     for (const auto& port : commander.registry().find(sequence->source->type)->outputs()) there[port.name] = port.type;
   std::map<std::string, std::string> read;
   for (const auto& role : roles)
     if (there.contains(role) && !role.starts_with("reference")) read[role] = role;
-  return part_of(commander, *sequence, options, label, read, open);
+  if (!read.empty()) add_part(commander, *sequence, options, label, read, open, parts);
 }
 
 }  // namespace quell

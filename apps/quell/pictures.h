@@ -26,18 +26,18 @@ struct OpenPictures {
   const std::atomic<bool>* cancel;
 };
 
-// The colour of the pictures, as role `role`. Like those below it gives nothing when there are mistakes, which are with
+// The colour of the pictures, as role `role`. Like those below it adds nothing when there are mistakes, which are with
 // the diagnostics then, and throws Error(Exit::input) for files that are not there.
-std::optional<JoinedSource::Part> open_pictures(Commander&, const std::string& text, const std::string& label,
-                                                const std::string& role, const OpenPictures&);
+void open_pictures(Commander&, const std::string& text, const std::string& label, const std::string& role,
+                   const OpenPictures&, std::vector<JoinedSource::Part>& parts);
 
 // A sequence gives its own reference, in halves if it has them, or its colour when it has none; pictures their colour.
-std::optional<JoinedSource::Part> open_reference(Commander&, const std::string& text, const std::string& label,
-                                                 const OpenPictures&);
+void open_reference(Commander&, const std::string& text, const std::string& label, const OpenPictures&,
+                    std::vector<JoinedSource::Part>& parts);
 
-// All that a sequence gives but colour: motion, ids and so on, under their own names. Those of `roles` alone are read.
-std::optional<JoinedSource::Part> open_features(Commander&, const std::string& text, const std::string& label,
-                                                const std::set<std::string>& roles, const OpenPictures&);
+// Those of `roles` that a sequence gives, under their own names: motion, ids and so on.
+void open_features(Commander&, const std::string& text, const std::string& label, const std::set<std::string>& roles,
+                   const OpenPictures&, std::vector<JoinedSource::Part>& parts);
 
 // Whether the text means a sequence rather than pictures.
 bool is_sequence(const std::string& text);

@@ -193,12 +193,12 @@ class Loader {
   void references(const Json& json, DocumentContext& context) {
     const Json* j = json.find("reference");
     if (!j) return;
-    if (j->find("source")) {
-      check_keys(*j, "reference", std::vector<std::string>{"source"}, diagnostics_);
-      sequence_.reference_source = source_node(*j, "reference");
-      return;
-    }
     const auto add = [&](const std::string& role, const Json& value, const std::string& path) {
+      if (value.find("source")) {
+        check_keys(value, path, std::vector<std::string>{"source"}, diagnostics_);
+        if (auto node = source_node(value, path)) sequence_.reference_sources.push_back({role, std::move(*node)});
+        return;
+      }
       // By its role an entry would have no type; a reference is always radiance.
       auto input = parse_input("color", value, path, false, context);
       if (!input) return;
@@ -215,6 +215,8 @@ class Loader {
     check_keys(*j, "reference", keys, diagnostics_);
     if (a) add("reference_a", *a, "reference.A");
     if (b) add("reference_b", *b, "reference.B");
+    if (!sequence_.references.empty() && !sequence_.reference_sources.empty())
+      diagnostics_.error(j->position, "reference", "one half is made of files and the other by a source node");
     if (!a || !b)
       diagnostics_.error(j->position, "reference",
                          fmt::format("has no \"{}\"; halves of a reference come in pairs", a ? "B" : "A"));

@@ -48,6 +48,12 @@ struct SourceNode {
   TextPosition position;    // of the type's name
 };
 
+// A source node whose output "color" is the reference, or one half of it.
+struct ReferenceSource {
+  std::string role;  // as those of references
+  SourceNode node;
+};
+
 struct Sequence {
   std::string path;
   std::string about;
@@ -56,7 +62,7 @@ struct Sequence {
   std::vector<SequenceInput> inputs;      // of files; empty when there is a source node
   std::vector<SequenceInput> references;  // role "reference", or "reference_a" and "reference_b"; type radiance
   std::optional<SourceNode> source;
-  std::optional<SourceNode> reference_source;  // in place of references; its output "color" is the reference
+  std::vector<ReferenceSource> reference_sources;  // in place of references
 
   const SequenceInput* find(std::string_view role) const;  // among inputs and references, or nullptr
   std::map<std::string, int> roles() const;                // of inputs and references

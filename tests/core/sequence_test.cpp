@@ -420,9 +420,20 @@ TEST_F(SequenceTest, TheBuiltInSequencesHaveSourcesForFramesAndReference) {
   int found = 0;
   for (const auto& file : std::filesystem::directory_iterator(folder)) {
     const Sequence sequence = load_path(file.path().string());
-    ASSERT_TRUE(sequence.source && sequence.reference_source) << file.path();
+    ASSERT_TRUE(sequence.source) << file.path();
+    ASSERT_EQ(sequence.reference_sources.size(), 2u) << file.path();
     EXPECT_EQ(sequence.source->type, "path_tracer");
-    EXPECT_EQ(sequence.reference_source->set->find("spp")->integer, 1024);
+    EXPECT_EQ(sequence.reference_sources[0].role, "reference_a");
+    EXPECT_EQ(sequence.reference_sources[1].role, "reference_b");
+    const auto seed = [](const SourceNode& node) {
+      const Json* j = node.set->find("seed");
+      return j ? j->integer : 0;
+    };
+    EXPECT_NE(seed(sequence.reference_sources[0].node), seed(sequence.reference_sources[1].node));
+    for (const auto& half : sequence.reference_sources) {
+      EXPECT_NE(seed(half.node), seed(*sequence.source)) << "the noise of the frames must not be in their reference";
+      EXPECT_EQ(half.node.set->find("spp")->integer, 512);
+    }
     EXPECT_EQ(sequence.frames.size(), 32u);
     ++found;
   }

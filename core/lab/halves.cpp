@@ -1,0 +1,77 @@
+// Reads both halves and writes their mean.
+#include "core/lab/halves.h"
+
+#include "core/image/image.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace quell {
+
+namespace {
+
+constexpr const char* kReference = "reference";
+const std::string kHalves[] = {"reference_a", "reference_b"};
+
+class MeanOfHalves : public FrameSource {
+ public:
+  explicit MeanOfHalves(std::unique_ptr<FrameSource> source) : source_(std::move(source)), roles_(source_->roles()) {
+    roles_[kReference] = roles_.at(kHalves[0]);
+  }
+
+  const std::vector<std::int64_t>& frames() const override { return source_->frames(); }
+  bool cut_before(std::int64_t frame) const override { return source_->cut_before(frame); }
+  bool declared_cut(std::int64_t frame) const override { return source_->declared_cut(frame); }
+  const std::map<std::string, int>& roles() const override { return roles_; }
+  std::map<std::string, Repairs> repairs() const override { return source_->repairs(); }
+
+  std::vector<quell_shape> shapes(std::int64_t frame, std::span<const std::string> roles) override {
+    std::vector<std::string> theirs(roles.begin(), roles.end());
+    std::ranges::replace(theirs, kReference, kHalves[0]);
+    return source_->shapes(frame, theirs);
+  }
+
+  void read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) override {
+    const auto place = std::ranges::find(roles, kReference) - roles.begin();
+    if (place == std::ssize(roles)) return source_->read(frame, roles, into);
+    // Halves go where they are wanted for themselves, or else aside.
+    std::vector<std::string> names(roles.begin(), roles.end());
+    std::vector<quell_image> images(into.begin(), into.end());
+    names.erase(names.begin() + place), images.erase(images.begin() + place);
+    const quell_image& mean = into[std::size_t(place)];
+    Image own[2];
+    quell_image half[2];
+    for (int i = 0; i < 2; ++i) {
+      const auto at = std::ranges::find(names, kHalves[i]) - names.begin();
+      if (at < std::ssize(names)) {
+        half[i] = images[std::size_t(at)];
+        continue;
+      }
+      own[i] = Image(mean.width, mean.height, mean.channels);
+      half[i] = own[i].view();
+      names.push_back(kHalves[i]), images.push_back(half[i]);
+    }
+    source_->read(frame, names, images);
+    for (int c = 0; c < mean.channels; ++c)
+      for (int y = 0; y < mean.height; ++y)
+        for (int x = 0; x < mean.width; ++x) {
+          const auto at = y * mean.pitch + x;
+          mean.plane[c][at] =
+              0.5f * half[0].plane[c][y * half[0].pitch + x] + 0.5f * half[1].plane[c][y * half[1].pitch + x];
+        }
+  }
+
+ private:
+  std::unique_ptr<FrameSource> source_;
+  std::map<std::string, int> roles_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> with_mean_of_halves(std::unique_ptr<FrameSource> source) {
+  const auto& roles = source->roles();
+  if (roles.contains(kReference) || !roles.contains(kHalves[0]) || !roles.contains(kHalves[1])) return source;
+  return std::make_unique<MeanOfHalves>(std::move(source));
+}
+
+}  // namespace quell
