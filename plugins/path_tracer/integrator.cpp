@@ -18,12 +18,21 @@ Vec beside(const Vec& p, const Vec& normal, const Vec& towards) {
   return p + normal * (glm::dot(normal, towards) < 0 ? -size : size);
 }
 
+// Whether features are looked for behind a surface: what the eye takes for a mirror. Cycles draws the line at the same
+// GGX alpha (kernel/film/denoising_passes.h).
+bool shows_what_is_behind(const Material& m) {
+  constexpr float kNarrow = 0.075f;
+  return m.kind == Material::Kind::mirror || m.kind == Material::Kind::glass ||
+         (m.kind == Material::Kind::conductor && m.roughness * m.roughness < kNarrow);
+}
+
 }  // namespace
 
 Traced path_radiance(const Moment& m, const Ray& primary, const std::optional<Hit>& first, const Sampler& sampler,
                      int max_bounces) {
   Traced sum;
   Rgb throughput(1), matte(0);  // the share of throughput that the first surface's base has let through
+  bool found = false;           // the surface whose features these are
   Ray ray = primary;
   std::optional<Hit> hit = first;
   // The vertex before, and the density of the direction that led here; infinite where no lamp could have been sampled
@@ -53,13 +62,19 @@ Traced path_radiance(const Moment& m, const Ray& primary, const std::optional<Hi
         seen(throughput * lamp * share([&] { return m.lights.pdf(receiver, ray.direction, *hit); }));
       break;
     }
-    if (bounce == max_bounces) break;
-
     const Vec viewer = -glm::normalize(ray.direction);
     const bool outside = glm::dot(viewer, hit->point.normal) >= 0;
     const Vec normal = outside ? hit->point.normal : -hit->point.normal;
     const Frame frame(normal);
-    const Bsdf bsdf(material, material.color.at(hit->point.texture), outside);
+    const Rgb color = material.color.at(hit->point.texture);
+    if (!found) {
+      found = !shows_what_is_behind(material);
+      sum.albedo = bounce ? sum.albedo * color : color;
+      if (found || bounce == 0) sum.normal = normal;
+    }
+    if (bounce == max_bounces) break;
+
+    const Bsdf bsdf(material, color, outside);
     const Dir from = frame.to_local(viewer);
     const std::uint32_t dimension = std::uint32_t(bounce) * kDimensions;
 

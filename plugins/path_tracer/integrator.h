@@ -15,9 +15,13 @@ struct Moment {
 };
 
 // Radiance, and the parts of it that the first surface scattered by its matte base and by gloss; what is left was seen
-// directly.
+// directly. Beside it, the features of the first surface on the path that scatters widely: its colour under the tints
+// of the mirrors, metals and glass before it, and its normal. A path that meets none has the tints alone and the normal
+// where it began; one that begins in a lamp or in the environment has no albedo.
 struct Traced {
   Rgb all{0}, diffuse{0}, specular{0};
+  Rgb albedo{0};
+  Vec normal{0};
 };
 
 // One sample of the radiance along `ray`, whose first hit is given: unidirectional path tracing, at each vertex one

@@ -12,6 +12,7 @@ namespace {
 using namespace path_tracer;
 
 enum class Jitter : std::int32_t { center, box };
+enum class Features : std::int32_t { first, followed };
 
 // Stays in one place: the geometry points into the scene.
 struct Stage {
@@ -41,6 +42,7 @@ struct PathTracer {
   int max_bounces = 6;
   float clamp = 0;
   Jitter jitter = Jitter::center;
+  Features features = Features::first;
 
   void describe(quell::Describe& d) {
     d.summary("Path-traces an animated scene file: noisy colour with exact feature buffers.");
@@ -48,11 +50,11 @@ struct PathTracer {
         "Kajiya 1986, eq. 1; balance heuristic: Veach and Guibas 1995, eq. 12; samples: Burley 2020, Practical "
         "Hash-based Owen Scrambling");
     d.out(color, "color", "Radiance; the mean of spp samples, emitters and environment included.");
-    d.out(
-        albedo, "albedo",
-        "Reflectance at the first hit: base colour, for metals and mirrors that at normal incidence; 0 on emitters and "
-        "misses.");
-    d.out(normal, "normal", "Geometric normal at the first hit, on the side of the camera; 0 for misses.");
+    d.out(albedo, "albedo",
+          "Reflectance at the first hit, or behind it (features): base colour, for metals and mirrors that at normal "
+          "incidence; 0 on emitters and misses.");
+    d.out(normal, "normal",
+          "Geometric normal at the first hit, or behind it (features), on the side that is seen; 0 for misses.");
     d.out(depth, "depth", "Depth of the first hit at the pixel's centre.");
     d.out(position, "position", "Position of the first hit at the pixel's centre.");
     d.out(
@@ -82,6 +84,12 @@ struct PathTracer {
             "Where in the pixel colour is sampled: at its centre, like the features and like one sample of most "
             "renderers, or uniformly (anti-aliased).",
             {"center", "box"});
+    d.param(features, "features",
+            "Whose albedo and normal these are. first: those of the first hit, without noise. followed: those of the "
+            "first surface on each sample's path that scatters widely, behind mirrors, glass and metal of a GGX alpha "
+            "below 0.075, in the mean over the samples: noisy where metal is rough, as the denoising features of "
+            "Cycles are.",
+            {"first", "followed"});
   }
 
   void shapes(const quell_spec&, quell_shape* out) const {
@@ -113,6 +121,10 @@ struct PathTracer {
         write(tile, color, x, y, light.all);
         write(tile, diffuse, x, y, light.diffuse);
         write(tile, specular, x, y, light.specular);
+        if (features == Features::followed && hit) {
+          write(tile, albedo, x, y, light.albedo);
+          if (light.normal != Vec(0)) write(tile, normal, x, y, Rgb(glm::normalize(light.normal)));
+        }
       }
     if (tile.x0 == 0 && tile.y0 == 0) write_tables(tile, view, placement);
   }
@@ -128,7 +140,7 @@ struct PathTracer {
   Traced estimate(const Moment& moment, const Camera& view, int x, int y, const Ray& center,
                   const std::optional<Hit>& center_hit, std::int64_t frame) const {
     constexpr std::uint32_t kPixelPlace = 0xffffffffu;  // a dimension that no path reaches
-    glm::dvec3 all(0), matte(0), gloss(0);
+    glm::dvec3 all(0), matte(0), gloss(0), base(0), facing(0);
     for (int i = 0; i < spp; ++i) {
       const Sampler sampler(std::uint32_t(seed), frame, x, y, i);
       Traced value;
@@ -141,12 +153,13 @@ struct PathTracer {
       }
       if (clamp > 0 && largest(value.all) > clamp) {
         const float scale = clamp / largest(value.all);
-        value = {value.all * scale, value.diffuse * scale, value.specular * scale};
+        value.all *= scale, value.diffuse *= scale, value.specular *= scale;
       }
       all += glm::dvec3(value.all), matte += glm::dvec3(value.diffuse), gloss += glm::dvec3(value.specular);
+      base += glm::dvec3(value.albedo), facing += value.normal;
     }
     const double n = spp;
-    return {Rgb(all / n), Rgb(matte / n), Rgb(gloss / n)};
+    return {Rgb(all / n), Rgb(matte / n), Rgb(gloss / n), Rgb(base / n), facing / n};
   }
 
   void write_features(const quell::Tile& tile, const Moment& moment, int x, int y, const Ray& ray,
