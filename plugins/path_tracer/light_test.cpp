@@ -222,20 +222,29 @@ TEST(PathTracer, BoxJitterMovesColourButNoFeature) {
 }
 
 TEST(PathTracer, EmissionIsWhatIsSeenOfLights) {
-  // The arcade's middle lamp switches on at frame 10 and shines black before.
-  const std::string arcade = QUELL_TEST_SOURCE "/graphs/scenes/arcade.json";
-  const auto off = tracer(arcade, 96, 54).frame(9).run(), on = tracer(arcade, 96, 54).frame(10).run();
-  int switched = 0;
-  for (int y = 0; y < 54; ++y)
-    for (int x = 0; x < 96; ++x) {
-      const glm::dvec3 before = rgb(off[kEmission], x, y), after = rgb(on[kEmission], x, y);
-      if (after == glm::dvec3(26, 19.5, 13) && before == glm::dvec3(0)) ++switched;
-      if (after != glm::dvec3(0)) {
-        EXPECT_EQ(rgb(on[kColor], x, y), after);
+  // Lamps that shine black before the frame in which they switch on.
+  struct Lamp {
+    const char* scene;
+    int frame;
+    glm::dvec3 radiance;
+  };
+  for (const Lamp& lamp : {Lamp{"arcade", 10, {26, 19.5, 13}}, Lamp{"yard", 12, {300, 220, 130}}}) {
+    SCOPED_TRACE(lamp.scene);
+    const std::string scene = std::string(QUELL_TEST_SOURCE "/graphs/scenes/") + lamp.scene + ".json";
+    const auto off = tracer(scene, 96, 54).frame(lamp.frame - 1).run(),
+               on = tracer(scene, 96, 54).frame(lamp.frame).run();
+    int switched = 0;
+    for (int y = 0; y < 54; ++y)
+      for (int x = 0; x < 96; ++x) {
+        const glm::dvec3 before = rgb(off[kEmission], x, y), after = rgb(on[kEmission], x, y);
+        if (after == lamp.radiance && before == glm::dvec3(0)) ++switched;
+        if (after != glm::dvec3(0)) {
+          EXPECT_EQ(rgb(on[kColor], x, y), after);
+        }
+        for (int c = 0; c < 3; ++c) EXPECT_GE(on[kColor].at(c, x, y), on[kEmission].at(c, x, y));
       }
-      for (int c = 0; c < 3; ++c) EXPECT_GE(on[kColor].at(c, x, y), on[kEmission].at(c, x, y));
-    }
-  EXPECT_GT(switched, 4);
+    EXPECT_GT(switched, 4);
+  }
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ std::vector<Mistake> mistakes() {
       {"UnknownSequence",
        {"run", "svgf", "rom"},
        2,
-       {"there is no sequence 'rom'", "built in are: arcade, room", "Did you mean 'room'?"}},
+       {"there is no sequence 'rom'", "built in are: arcade, hall, room, yard, yard_undeclared", "Did you mean 'room'?"}},
       {"UnknownBoth", {"run", "svgff", "rom"}, 2, {"there is no graph 'svgff'", "there is no sequence 'rom'"}},
       {"MissingGraphFile", {"check", "no.json"}, 2, {"cannot read 'no.json': No such file"}},
       {"MissingSequenceFile", {"run", "svgf", "no.json"}, 3, {"cannot read 'no.json': No such file"}},

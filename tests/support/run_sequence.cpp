@@ -1,6 +1,8 @@
 // Runs a graph over a sequence inside a test.
 #include "tests/support/run_sequence.h"
 
+#include "core/graph/library.h"
+#include "core/graph/params.h"
 #include "core/run/node_source.h"
 #include "core/sequence/file_sequence.h"
 #include "core/sequence/sequence.h"
@@ -65,13 +67,20 @@ SequenceResult run_sequence(const SequenceRun& run) {
   std::unique_ptr<FrameSource> frames;
   if (source) {
     Instance instance(*source);
+    Faults faults(diagnostics);
+    const Library library(graphs, faults);
+    if (sequence->source->set)
+      for (const auto& member : sequence->source->set->members) {
+        const int param = source->find_param(member.key);
+        if (param < 0) throw std::runtime_error("the source has no parameter " + member.key);
+        if (const auto problem = assign(instance, param, member.value, true, library); !problem.text.empty())
+          throw std::runtime_error(member.key + ": " + problem.text);
+      }
     for (const auto& [name, value] : run.source_ints) {
       const int param = source->find_param(name);
       if (param < 0) throw std::runtime_error("the source has no parameter " + name);
       instance.set_int(param, value);
     }
-    if (const int scene = source->find_param("scene"); scene >= 0)
-      instance.set_text(scene, graphs + "/scenes/room.json");
     frames = std::make_unique<NodeSource>(std::move(instance), sequence->frames, sequence->cuts, run.options.threads,
                                           nullptr);
   } else {

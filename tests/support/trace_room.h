@@ -17,7 +17,7 @@ struct Tracing {
   int width, height;
 };
 
-// Every output of the path tracer is a role. Scenes are "room" and "arcade".
+// Every output of the path tracer is a role. Scenes are those of graphs/scenes.
 std::unique_ptr<FrameSource> trace_scene(const std::string& scene, const std::vector<std::int64_t>& frames,
                                          const std::set<std::int64_t>& cuts, const Tracing&);
 
