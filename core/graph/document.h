@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/graph/faults.h"
+#include "core/graph/metric_key.h"
 #include "core/graph/reference.h"
 #include "core/json/json.h"
 
@@ -84,6 +85,7 @@ struct Document {
   std::string file;  // as it was opened
   TextPosition position;
   std::string name, about;
+  std::optional<MetricKey> metric;  // of a graph that judges images
   std::vector<InputSpec> inputs;
   std::vector<ParamSpec> params;
   std::vector<NodeSpec> nodes;

@@ -27,7 +27,7 @@ std::string value_text(const Json& json) {
 }
 
 void describe(const Document& document, const Expansion* expansion, const Resolved* resolved, GraphInfo& info) {
-  info = {document.file, document.name, document.about, {}, {}, {}};
+  info = {document.file, document.name, document.about, document.metric, {}, {}, {}};
   for (const auto& in : document.inputs) info.inputs.push_back({in.name, in.type, in.optional});
   for (const auto& out : document.outputs) info.outputs.push_back(out.name);
   for (std::size_t i = 0; i < document.params.size(); ++i) {

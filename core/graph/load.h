@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/graph/graph.h"
+#include "core/graph/metric_key.h"
 #include "core/graph/variant.h"
 #include "core/plugin/registry.h"
 
@@ -33,6 +34,7 @@ struct GraphParam {
 // What a graph says of itself.
 struct GraphInfo {
   std::string file, name, about;
+  std::optional<MetricKey> metric;
   std::vector<GraphInput> inputs;  // all that are declared
   std::vector<GraphParam> params;
   std::vector<std::string> outputs;

@@ -24,13 +24,14 @@ class Parser {
 
   std::optional<Document> document(const Json& json) {
     if (!kind(json, Json::Kind::object, "", "a graph")) return std::nullopt;
-    keys(json, "", {"quell", "name", "about", "inputs", "params", "nodes", "outputs", "$schema"});
+    keys(json, "", {"quell", "name", "about", "metric", "inputs", "params", "nodes", "outputs", "$schema"});
     Document d;
     d.position = json.position;
     version(json);
     if (const auto* j = json.find("name"); j && kind(*j, Json::Kind::text, "name", "the name")) d.name = j->text;
     if (const auto* j = json.find("$schema")) kind(*j, Json::Kind::text, "$schema", "the address");
     if (const auto* j = json.find("about"); j && kind(*j, Json::Kind::text, "about", "the text")) d.about = j->text;
+    if (const auto* j = json.find("metric"); j && kind(*j, Json::Kind::object, "metric", "\"metric\"")) metric(d, *j);
     section(json, "inputs", [&](const JsonMember& m) { input(d, m); });
     section(json, "params", [&](const JsonMember& m) { param(d, m); });
     section(json, "nodes", [&](const JsonMember& m) { node(d, m); });
@@ -107,6 +108,29 @@ class Parser {
     faults_.error(m.key_position, path, fmt::format("'{}' cannot be a name", m.key),
                   {"a name is a small letter, then small letters, digits and _"});
     return false;
+  }
+
+  void metric(Document& d, const Json& json) {
+    keys(json, "metric", {"better", "unit", "perfect"});
+    auto& metric = d.metric.emplace();
+    const auto* better = json.find("better");
+    if (!better)
+      faults_.error(json.position, "metric", "a metric needs \"better\"",
+                    {"as in \"metric\": { \"better\": \"lower\", \"unit\": \"dB\", \"perfect\": 0 }"});
+    else if (!better->is(Json::Kind::text) || (better->text != "lower" && better->text != "higher"))
+      faults_.error(better->position, "metric.better",
+                    fmt::format("\"better\" must be \"lower\" or \"higher\", not {}", shown(*better)));
+    else
+      metric.higher_is_better = better->text == "higher";
+    if (const auto* j = json.find("unit"); j && kind(*j, Json::Kind::text, "metric.unit", "the unit"))
+      metric.unit = j->text;
+    if (const auto* j = json.find("perfect"); j && !j->is(Json::Kind::null)) {
+      if (j->is_number())
+        metric.perfect = j->number;
+      else
+        faults_.error(j->position, "metric.perfect",
+                      fmt::format("\"perfect\" must be a number or null, not {}", shown(*j)));
+    }
   }
 
   void input(Document& d, const JsonMember& m) {

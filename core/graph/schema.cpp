@@ -164,6 +164,15 @@ std::string graph_schema(Registry& registry) {
   properties["$schema"] = {{"type", "string"}, {"description", "Where an editor finds this schema."}};
   properties["base"] = {{"type", "string"},
                         {"description", "This is a variant: laid over that graph, in which null removes."}};
+  properties["metric"] = {
+      {"type", "object"},
+      {"description", "Of a graph that judges images: how its number is to be read."},
+      {"additionalProperties", false},
+      {"required", {"better"}},
+      {"properties",
+       {{"better", {{"enum", {"lower", "higher"}}}},
+        {"unit", {{"type", "string"}, {"description", "As in dB; empty for a bare number."}}},
+        {"perfect", {{"type", {"number", "null"}}, {"description", "What an image gets that is its reference."}}}}}};
   properties["inputs"] = map_of(
       or_null(
           {{"anyOf", J::array({{{"enum", type_names()}},
