@@ -7,6 +7,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 namespace quell {
 
 namespace {
@@ -21,6 +24,29 @@ void print_problems(const Registry& registry) {
   for (const auto& p : registry.problems()) fmt::print(stderr, "{}: error: {}\n", p.file.string(), p.text);
 }
 
+std::string lower(std::string_view text) {
+  std::string out(text);
+  std::ranges::transform(out, out.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return out;
+}
+
+// A technique may go by a name that is no node's: "box" is a kernel of several, "bilateral" is a filter and weights.
+std::string mentions(const std::string& word, Registry& registry) {
+  constexpr std::size_t kShortest = 3;
+  std::vector<std::string> settings, nodes;
+  for (const auto* type : registry.all()) {
+    for (const auto& p : type->params())
+      for (int c = 0; c < p.choice_count; ++c)
+        if (word == p.choices[c]) settings.push_back(fmt::format("{}.{}", type->name(), p.name));
+    if (word.size() >= kShortest && lower(document_text(*type)).find(lower(word)) != std::string::npos)
+      nodes.emplace_back(type->name());
+  }
+  std::string text;
+  if (!settings.empty()) text += fmt::format("\n  '{}' is a value of {}", word, fmt::join(settings, ", "));
+  if (!nodes.empty()) text += fmt::format("\n  '{}' is spoken of in {}", word, fmt::join(nodes, ", "));
+  return text;
+}
+
 int nodes(const NodesArguments& a) {
   Commander commander(a.plugins);
   auto& registry = commander.registry();
@@ -33,8 +59,8 @@ int nodes(const NodesArguments& a) {
     throw Error(Exit::plugin, fmt::format("{}: {}", problem->file.string(), problem->text));
   } else {
     const auto names = registry.names();
-    throw Error(Exit::usage,
-                fmt::format("there is no node type '{}'\n  {}", a.name, possibilities("there are", a.name, names)));
+    throw Error(Exit::usage, fmt::format("there is no node type '{}'\n  {}{}", a.name,
+                                         possibilities("there are", a.name, names), mentions(a.name, registry)));
   }
   // Whoever asks about plugins wants to know of all that is wrong; who asks for all nodes, of nothing else.
   if (a.problems || a.name.empty()) print_problems(registry);

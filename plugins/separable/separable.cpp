@@ -42,7 +42,7 @@ struct Separable {
     d.param(radius, "radius",
             "Half-width of the pass, pixels: 2 radius + 1 taps. 0 is three sigma, rounded up, and at most 64.")
         .range(0, kMaxRadius);
-    d.param(kernel, "kernel", "gaussian: exp(-d² / 2 sigma²). flat: 1.", {"gaussian", "flat"});
+    d.param(kernel, "kernel", "gaussian: exp(-d² / 2 sigma²). flat: 1, the box filter.", {"gaussian", "flat"});
     d.param(sigma, "sigma", "Standard deviation of the gaussian, pixels; sets the width where radius is 0.")
         .range(0.1f, 1000.0f);
   }

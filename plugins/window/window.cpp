@@ -35,7 +35,7 @@ struct Window {
         "square: the whole window. disc: dx² + dy² <= radius², which is alike in all directions and has a fifth to a "
         "third fewer taps.",
         {"square", "disc"});
-    d.param(kernel, "kernel", "gaussian: exp(-(dx² + dy²) / 2 sigma²). flat: 1.", {"gaussian", "flat"});
+    d.param(kernel, "kernel", "gaussian: exp(-(dx² + dy²) / 2 sigma²). flat: 1, the box filter.", {"gaussian", "flat"});
     d.param(sigma, "sigma", "Standard deviation of the gaussian, pixels.").range(0.1f, 1000.0f);
   }
 
