@@ -53,6 +53,57 @@ TEST_P(TemporalGraph, StartsAnewOnACut) {
 INSTANTIATE_TEST_SUITE_P(All, TemporalGraph, testing::ValuesIn(graphs(remembers)),
                          [](const auto& test) { return test.param; });
 
+// The graph with the part that finds cuts in place of its disocclusion.
+Graph cut_aware(const std::string& name) {
+  GraphRequest request;
+  request.graph = name;
+  request.graphs = QUELL_TEST_SOURCE "/graphs";
+  Diagnostics diagnostics;
+  request.laid_over = parse_json(
+      "variant", R"({"nodes": {"validity": {"graph": "quell:parts/cut_aware_disocclusion.json"}}})", diagnostics);
+  auto graph = load_graph(request, registry(), diagnostics);
+  if (!graph) throw std::runtime_error(diagnostics.format());
+  return std::move(*graph);
+}
+
+bool tests_surfaces_alone(const Graph& graph) {
+  const auto is = [](const GraphNode& n, std::string_view name, std::string_view type) {
+    return n.name == name && n.type().name() == type;
+  };
+  return std::ranges::any_of(graph.nodes, [&](const auto& n) { return is(n, "validity", "disocclusion"); }) &&
+         std::ranges::any_of(graph.inputs, [](const auto& i) { return i.type == QUELL_DEPTH || i.type == QUELL_ID; }) &&
+         std::ranges::none_of(graph.nodes, [](const auto& n) { return n.type().name() == "cut_gate"; });
+}
+
+class CutAwareGraph : public testing::TestWithParam<std::string> {};
+
+// Surfaces change in two thirds of the frame, and nothing declares it.
+TEST_P(CutAwareGraph, StartsAnewOnACutThatNobodyDeclares) {
+  const Graph plain = shipped_graph(GetParam()), aware = cut_aware(GetParam());
+  SyntheticRun all{.width = kWidth, .height = kHeight, .last = 6};
+  all.alter = [](const Image& image, int type, std::int64_t frame) {
+    auto other = image.copy();
+    if (frame < 4) return other;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth * 2 / 3; ++x) {
+        if (type == QUELL_DEPTH) other.at(0, x, y) += 20;
+        if (type == QUELL_ID) other.bits(0, y)[x] += 1000;
+      }
+    return other;
+  };
+  SyntheticRun fresh = all;
+  fresh.first = 4;
+  const auto found = run_synthetic(aware, all), missed = run_synthetic(plain, all), after = run_synthetic(aware, fresh);
+  for (const auto& [frame, images] : after) {
+    EXPECT_TRUE(same_bits(images[0], found.at(frame)[0])) << frame;
+    EXPECT_FALSE(same_bits(images[0], missed.at(frame)[0])) << frame << ": no history to lose";
+  }
+  EXPECT_TRUE(same_bits(found.at(3)[0], missed.at(3)[0])) << "it changes what has no cut";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, CutAwareGraph, testing::ValuesIn(graphs(tests_surfaces_alone)),
+                         [](const auto& test) { return test.param; });
+
 class ShippedGraph : public testing::TestWithParam<std::string> {};
 
 // Images, motion and cameras in a mirror: the result in that mirror. Sums are taken in another order, and a luminance
@@ -63,7 +114,7 @@ TEST_P(ShippedGraph, CommutesWithFlips) {
   const auto expected = run_synthetic(graph, plain);
   for (const bool horizontal : {true, false}) {
     SyntheticRun flipped = plain;
-    flipped.alter = [&](const Image& image, int type) {
+    flipped.alter = [&](const Image& image, int type, std::int64_t) {
       if (type != QUELL_CAMERA) return mirrored(image, type, horizontal);
       return mirrored_camera(image, horizontal, float(horizontal ? kWidth : kHeight));
     };
@@ -106,7 +157,7 @@ TEST_P(ShippedGraph, FollowsTheExposure) {
       if (in_radiance(graph, node, node.type().params()[i]))
         node.instance.set_float(int(i), kScale * node.instance.get_float(int(i)));
   SyntheticRun bright = plain;
-  bright.alter = [](const Image& image, int type) { return brightened(image, type, kScale); };
+  bright.alter = [](const Image& image, int type, std::int64_t) { return brightened(image, type, kScale); };
   for (const auto& [frame, images] : run_synthetic(graph, bright))
     for (int c = 0; c < 3; ++c)
       for (int y = 0; y < kHeight; ++y)

@@ -41,7 +41,7 @@ class Frames : public SyntheticSource {
         for (int y = 0; y < image.height(); ++y)
           std::copy_n(into[i].plane[c] + y * into[i].pitch, image.width(), image.row(c, y));
       const int type = roles().at(names[i]);
-      image = run_.alter(image, type);
+      image = run_.alter(image, type, frame);
       for (int c = 0; c < image.channels(); ++c)
         for (int y = 0; y < image.height(); ++y)
           std::copy_n(image.row(c, y), image.width(), into[i].plane[c] + y * into[i].pitch);

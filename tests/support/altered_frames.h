@@ -24,7 +24,7 @@ struct SyntheticRun {
   int width = 0, height = 0;
   std::int64_t first = 0, last = 0;  // frames; each looks the same in every run
   std::int64_t cut = -1;             // a frame before which history ends
-  std::function<Image(const Image&, int type)> alter;
+  std::function<Image(const Image&, int type, std::int64_t frame)> alter;
 };
 
 // Outputs by frame, in the order of Graph::outputs.
