@@ -5,7 +5,7 @@
 
 QUELL_SIMD_BEGIN
 void weigh(const quell_run& run, const float* const* planes, Falloff falloff, float sigma, float* exponent) {
-  weigh_by_distance(run, planes, 3, falloff, sigma, exponent);
+  weigh_by_distance<Linear>(run, planes, 3, falloff, sigma, exponent);
 }
 QUELL_SIMD_END
 

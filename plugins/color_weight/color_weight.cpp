@@ -12,6 +12,7 @@ struct ColorWeight {
   float sigma = 0.6f;
   float scale = 1.0f;
   quell::Falloff falloff = quell::Falloff::gaussian;
+  quell::ColorSpace space = quell::ColorSpace::linear;
 
   void describe(quell::Describe& d) {
     d.summary("Weighs a neighbour by how nearly its colour is the centre's.");
@@ -28,11 +29,17 @@ struct ColorWeight {
             "0.25, … for levels that leave less and less noise.")
         .range(1e-4f, 1e4f);
     quell::describe_falloff(d, falloff);
+    d.param(
+        space, "space",
+        "What distances and sigma are measured in. linear: the image as it is, so that a sigma fits one exposure. "
+        "log: ±log(1 + |x|), where what is much brighter than 1 differs by its ratio. sqrt: ±√|x|, where noise that "
+        "grows with the light is alike everywhere.",
+        {"linear", "log", "sqrt"});
   }
 
   void weigh(const quell_input* in, const quell_run& run, float* exponent) const {
     const quell_image& guide = in[image.index].image[0];
-    quell::color_weigh(run, guide.plane, guide.channels, falloff, sigma * scale, exponent);
+    quell::color_weigh(run, guide.plane, guide.channels, {space, falloff, sigma * scale}, exponent);
   }
 };
 

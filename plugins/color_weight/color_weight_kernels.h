@@ -4,8 +4,17 @@
 #include <quell/abi.h>
 #include <quell/falloff.h>
 
+#include <cstdint>
+
 namespace quell {
 
-void color_weigh(const quell_run&, const float* const* planes, int channels, Falloff, float sigma, float* exponent);
+enum class ColorSpace : std::int32_t { linear, log, sqrt };
+struct ColorDistance {
+  ColorSpace space;
+  Falloff falloff;
+  float sigma;
+};
+
+void color_weigh(const quell_run&, const float* const* planes, int channels, ColorDistance, float* exponent);
 
 }  // namespace quell

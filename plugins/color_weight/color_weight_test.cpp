@@ -50,5 +50,30 @@ TEST(ColorWeight, EveryFalloff) {
     }
 }
 
+// Guides may be negative, positions for one: these spaces keep the sign.
+TEST(ColorWeight, EverySpace) {
+  const std::pair<const char*, double (*)(double)> spaces[] = {
+      {"linear", [](double x) { return x; }},
+      {"log", [](double x) { return std::copysign(std::log1p(std::abs(x)), x); }},
+      {"sqrt", [](double x) { return std::copysign(std::sqrt(std::abs(x)), x); }}};
+  for (const auto& [name, space] : spaces)
+    for (const char* fall : {"gaussian", "exponential", "rational"})
+      for (const int channels : {1, 3, 4, 5}) {
+        SCOPED_TRACE(testing::Message() << name << " " << fall << " " << channels);
+        const auto image = noise_image(kWidth, kHeight, channels, 15, -3, 12);
+        Node node("color_weight");
+        node.set("sigma", 1.3f).set("space", name).set("falloff", fall).in("image", image);
+        check_weight(
+            node, kWidth, kHeight,
+            [&, of = space](int x, int y, int dx, int dy) {
+              double squared = 0;
+              for (int c = 0; c < channels; ++c)
+                squared += std::pow(of(image.at(c, x, y)) - of(image.at(c, x + dx, y + dy)), 2);
+              return falloff(fall, std::sqrt(squared) / 1.3);
+            },
+            5e-6);
+      }
+}
+
 }  // namespace
 }  // namespace quell::test

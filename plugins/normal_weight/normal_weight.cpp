@@ -4,6 +4,8 @@
 #include <quell/falloff.h>
 #include <quell/node.h>
 
+#include <stdexcept>
+
 namespace {
 
 enum class Mode : std::int32_t { power, angle, difference };
@@ -14,6 +16,7 @@ struct NormalWeight {
   Mode mode = Mode::power;
   float power = 128.0f;
   float sigma = 0.1f;
+  float scale = 1.0f;
   quell::Falloff falloff = quell::Falloff::gaussian;
 
   void describe(quell::Describe& d) {
@@ -32,7 +35,18 @@ struct NormalWeight {
     d.param(sigma, "sigma",
             "Unit of D in modes angle (radians) and difference, of the gaussian its standard deviation.")
         .range(1e-3f, 10.0f);
+    d.param(scale, "scale",
+            "Multiplies sigma: Dammertz's levels take their step for it, for normals change the more the farther apart "
+            "they are.")
+        .range(1e-4f, 1e4f);
     quell::describe_falloff(d, falloff);
+  }
+
+  void shapes(const quell_spec&, quell_shape*) const {
+    if (mode == Mode::power && falloff != quell::Falloff::gaussian)
+      throw std::runtime_error(
+          "mode power takes no falloff, for the power of the cosine is one itself: set mode to angle or difference, or "
+          "leave falloff at gaussian");
   }
 
   void weigh(const quell_input* in, const quell_run& run, float* exponent) const {
@@ -41,9 +55,9 @@ struct NormalWeight {
       case Mode::power:
         return quell::normal_weigh_power(run, n, power, exponent);
       case Mode::angle:
-        return quell::normal_weigh_angle(run, n, falloff, sigma, exponent);
+        return quell::normal_weigh_angle(run, n, falloff, sigma * scale, exponent);
       case Mode::difference:
-        return quell::normal_weigh_difference(run, n, falloff, sigma, exponent);
+        return quell::normal_weigh_difference(run, n, falloff, sigma * scale, exponent);
     }
   }
 };

@@ -79,6 +79,31 @@ TEST(NormalWeight, EveryFalloff) {
       }
 }
 
+TEST(NormalWeight, ScaleMultipliesSigma) {
+  const auto normal = normal_image(kWidth, kHeight, 6, true);
+  for (const char* mode : {"angle", "difference"}) {
+    Node scaled("normal_weight"), plain("normal_weight");
+    scaled.set("mode", mode).set("sigma", 0.25f).set("scale", 2.0f).in("normal", normal);
+    plain.set("mode", mode).set("sigma", 0.5f).in("normal", normal);
+    for (int y = 0; y < kHeight - 1; ++y)
+      EXPECT_EQ(weights_of(scaled, kWidth, kHeight, y, {{2, 1}}, false),
+                weights_of(plain, kWidth, kHeight, y, {{2, 1}}, false));
+  }
+}
+
+TEST(NormalWeight, APowerTakesNoFalloff) {
+  const auto normal = normal_image(8, 3, 7);
+  Node node("normal_weight");
+  node.in("normal", normal).set("falloff", "tent");
+  try {
+    node.shapes();
+    ADD_FAILURE() << "it did";
+  } catch (const std::exception& e) {
+    EXPECT_NE(std::string(e.what()).find("set mode to angle or difference"), std::string::npos) << e.what();
+  }
+  EXPECT_NO_THROW(node.set("mode", "angle").shapes());
+}
+
 // The miss test of a segment must not be fooled by single zero components.
 TEST(NormalWeight, AxisNormalsAreNoMisses) {
   Image normal(40, 3, 3);
