@@ -24,6 +24,11 @@ class MeanOfHalves : public FrameSource {
   bool declared_cut(std::int64_t frame) const override { return source_->declared_cut(frame); }
   const std::map<std::string, int>& roles() const override { return roles_; }
   std::map<std::string, Repairs> repairs() const override { return source_->repairs(); }
+  void refuse_non_finite(std::span<const std::string> roles) override {
+    std::vector<std::string> theirs(roles.begin(), roles.end());
+    if (std::erase(theirs, kReference)) theirs.insert(theirs.end(), std::begin(kHalves), std::end(kHalves));
+    source_->refuse_non_finite(theirs);
+  }
 
   std::vector<quell_shape> shapes(std::int64_t frame, std::span<const std::string> roles) override {
     std::vector<std::string> theirs(roles.begin(), roles.end());

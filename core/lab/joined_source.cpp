@@ -80,6 +80,10 @@ void JoinedSource::read(std::int64_t frame, std::span<const std::string> roles, 
   });
 }
 
+void JoinedSource::refuse_non_finite(std::span<const std::string> roles) {
+  split(roles, [](const Part& part, const auto& names, const auto&) { part.source->refuse_non_finite(names); });
+}
+
 std::map<std::string, Repairs> JoinedSource::repairs() const {
   std::map<std::string, Repairs> all;
   for (const auto& part : parts_) {

@@ -32,6 +32,7 @@ class JoinedSource : public FrameSource {
   const std::map<std::string, int>& roles() const override { return roles_; }
   std::vector<quell_shape> shapes(std::int64_t frame, std::span<const std::string> roles) override;
   void read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) override;
+  void refuse_non_finite(std::span<const std::string> roles) override;
   std::map<std::string, Repairs> repairs() const override;
 
   // Whether the role's source has this frame, and its images are not those of a missing one.

@@ -33,6 +33,12 @@ bool never_negative(int type) {
   return type == QUELL_RADIANCE || type == QUELL_ALBEDO || type == QUELL_VARIANCE || type == QUELL_COUNT;
 }
 
+// What a piece of an image had wrong.
+struct Found {
+  Repairs repairs;
+  std::optional<BrokenPixel> broken;
+};
+
 // One row of an image: a pointer a channel.
 using Row = std::span<float* const>;
 
@@ -79,7 +85,7 @@ class Converter {
     per_pixel_ = c_.miss || c_.display || c_.encoded || c_.reciprocal || c_.needs_camera();
   }
 
-  void row(int y, Repairs& repairs) const {
+  void row(int y, Found& found) const {
     std::vector<float*> planes;
     for (int c = 0; c < image_.channels; ++c) planes.push_back(image_.plane[c] + y * image_.pitch);
     const Row row(planes);
@@ -90,7 +96,7 @@ class Converter {
           continue;
         }
         transform(row, x, y);
-        repair(row, x, repairs);
+        repair(row, x, y, found);
       }
       return;
     }
@@ -100,7 +106,8 @@ class Converter {
         for (int x = window_.x0; x < window_.x1; ++x) row[i][x] *= factor_[i];
     const auto n = std::size_t(window_.x1 - window_.x0);
     if (type_ == QUELL_DEPTH) {
-      repairs.non_finite += std::int64_t(far_where_nothing_is(row[0] + window_.x0, n, kFarInFiles));
+      if (!found.broken && !all_clean(row[0] + window_.x0, n, true)) find_nan(row[0], y, found);
+      found.repairs.non_finite += std::int64_t(far_where_nothing_is(row[0] + window_.x0, n, kFarInFiles));
       return;
     }
     const bool signs = !never_negative(type_);
@@ -111,11 +118,16 @@ class Converter {
       }
       return;
     }
-    for (int x = window_.x0; x < window_.x1; ++x) repair(row, x, repairs);
+    for (int x = window_.x0; x < window_.x1; ++x) repair(row, x, y, found);
   }
 
  private:
   double shortest() const { return c_.encoded ? kShortestEncoded : kShortest; }
+
+  void find_nan(const float* depth, int y, Found& found) const {
+    for (int x = window_.x0; x < window_.x1 && !found.broken; ++x)
+      if (std::isnan(depth[x])) found.broken = BrokenPixel{x, y, 0, depth[x]};
+  }
 
   bool is_miss(Row row, int x) const {
     if (c_.miss && std::ranges::all_of(row, [&](const float* p) { return p[x] == *c_.miss; })) return true;
@@ -150,11 +162,13 @@ class Converter {
     }
   }
 
-  void repair(Row row, int x, Repairs& repairs) const {
+  void repair(Row row, int x, int y, Found& found) const {
+    Repairs& repairs = found.repairs;
     if (type_ == QUELL_DEPTH) {
       // An infinite depth is a miss that needs no repair.
       const float z = row[0][x];
       if (std::isnan(z)) ++repairs.non_finite;
+      if (std::isnan(z) && !found.broken) found.broken = BrokenPixel{x, y, 0, z};
       if (!std::isfinite(z) || z == 0.0f || z >= kFarInFiles) row[0][x] = kFar;
       return;
     }
@@ -167,6 +181,8 @@ class Converter {
     const bool color = type_ == QUELL_RADIANCE || type_ == QUELL_ALBEDO;
     if (!finite) {
       ++repairs.non_finite;
+      const auto bad = std::ranges::find_if(row, [x](const float* p) { return !std::isfinite(p[x]); }) - row.begin();
+      if (!found.broken) found.broken = BrokenPixel{x, y, int(bad), row[std::size_t(bad)][x]};
       for (float* p : row) {
         if (!color || nan) {
           p[x] = missing_;
@@ -224,21 +240,26 @@ void fill_outside(const quell_image& image, int type, const Window& w) {
 
 }  // namespace
 
-void convert(const quell_image& image, int type, const Window& window, const Conversion& conversion,
-             const FrameMatrices* camera, Repairs& repairs) {
+std::optional<BrokenPixel> convert(const quell_image& image, int type, const Window& window,
+                                   const Conversion& conversion, const FrameMatrices* camera, Repairs& repairs) {
   const Window inside = window.empty() ? Window{} : window;
   fill_outside(image, type, inside);
   if (type == QUELL_ID) {
     convert_ids(image, inside, conversion);
-    return;
+    return std::nullopt;
   }
   const Converter converter(image, type, inside, conversion, camera);
-  std::vector<Repairs> found(std::size_t((inside.y1 - inside.y0 + kPieceRows - 1) / kPieceRows));
+  std::vector<Found> found(std::size_t((inside.y1 - inside.y0 + kPieceRows - 1) / kPieceRows));
   in_pieces(int(found.size()), [&](int i) {
     const int top = inside.y0 + i * kPieceRows;
     for (int y = top; y < std::min(top + kPieceRows, inside.y1); ++y) converter.row(y, found[std::size_t(i)]);
   });
-  for (const auto& f : found) repairs.non_finite += f.non_finite, repairs.negative += f.negative;
+  std::optional<BrokenPixel> first;
+  for (const auto& f : found) {
+    repairs.non_finite += f.repairs.non_finite, repairs.negative += f.repairs.negative;
+    if (!first) first = f.broken;
+  }
+  return first;
 }
 
 }  // namespace quell

@@ -29,11 +29,18 @@ struct Conversion {
   bool needs_camera() const { return miss_is_camera || distance || from_camera; }
 };
 
+// A pixel that was not finite.
+struct BrokenPixel {
+  int x = 0, y = 0, channel = 0;
+  float value = 0;
+};
+
 // Converts the pixels of `window` in place, fills the others with the type's missing value and repairs what is not
 // allowed: radiance and albedo become 0 where any channel is NaN, 65504 where infinite and 0 where negative; of other
 // types a pixel that holds something not finite becomes a miss. Depth is kFar where the file has 0, at least 1e10 or no
-// finite number; normals get length 1. The camera may be null when the conversion needs none.
-void convert(const quell_image& image, int type, const Window& window, const Conversion&, const FrameMatrices* camera,
-             Repairs& repairs);
+// finite number; normals get length 1. The camera may be null when the conversion needs none. Says which pixel was the
+// first, row by row, that was not finite; of depth, NaN.
+std::optional<BrokenPixel> convert(const quell_image& image, int type, const Window& window, const Conversion&,
+                                   const FrameMatrices* camera, Repairs& repairs);
 
 }  // namespace quell

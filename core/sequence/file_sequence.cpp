@@ -104,6 +104,7 @@ class FileSequence::Impl {
     });
   }
 
+  void refuse_non_finite(std::span<const std::string> roles) { strict_.insert(roles.begin(), roles.end()); }
   std::map<std::string, Repairs> repairs() const { return repairs_; }
 
  private:
@@ -327,8 +328,18 @@ class FileSequence::Impl {
       conversion.display = color && file.display_encoded(channel_of(file, bound.channels.front()));
       const FrameMatrices* camera =
           conversion.needs_camera() ? &matrices(*camera_, stand_in(*camera_, frame)) : nullptr;
-      convert(into[i], bound.input->type, window, conversion, camera, repairs_[roles[i]]);
+      const auto broken = convert(into[i], bound.input->type, window, conversion, camera, repairs_[roles[i]]);
+      if (broken && strict_.contains(roles[i])) refuse(path, roles[i], bound, *broken);
     }
+  }
+
+  [[noreturn]] static void refuse(const std::string& path, const std::string& role, const Bound& bound,
+                                  const BrokenPixel& p) {
+    throw Error(
+        Exit::input,
+        fmt::format("{}: '{}' is not finite: pixel ({}, {}) holds {} in channel '{}'\n  an error cannot be told "
+                    "from such pixels; repair the file, or leave the frame out",
+                    path, role, p.x, p.y, p.value, bound.channels[std::size_t(p.channel)]));
   }
 
   void fill_missing_role(const std::string& role, const quell_image& image) {
@@ -350,6 +361,7 @@ class FileSequence::Impl {
   std::string matrices_path_;
   FrameMatrices matrices_;
   std::map<std::string, Repairs> repairs_;
+  std::set<std::string> strict_;  // roles that may hold nothing that is not finite
 };
 
 FileSequence::FileSequence(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -367,6 +379,7 @@ std::vector<quell_shape> FileSequence::shapes(std::int64_t frame, std::span<cons
 void FileSequence::read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) {
   impl_->read(frame, roles, into);
 }
+void FileSequence::refuse_non_finite(std::span<const std::string> roles) { impl_->refuse_non_finite(roles); }
 std::map<std::string, Repairs> FileSequence::repairs() const { return impl_->repairs(); }
 const std::vector<std::int64_t>& FileSequence::reference_frames() const { return impl_->reference_frames(); }
 const std::vector<std::int64_t>& FileSequence::missing_frames() const { return impl_->missing_frames(); }

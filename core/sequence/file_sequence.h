@@ -38,6 +38,7 @@ class FileSequence : public FrameSource {
   const std::map<std::string, int>& roles() const override;
   std::vector<quell_shape> shapes(std::int64_t frame, std::span<const std::string> roles) override;
   void read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) override;
+  void refuse_non_finite(std::span<const std::string> roles) override;
   std::map<std::string, Repairs> repairs() const override;
 
   // Frames for which all files of the reference exist.

@@ -35,6 +35,10 @@ class FrameSource {
   // Fills one image per role, in the conventions of <quell/types.h>. May run on another thread while another frame
   // is filtered; one call at a time. Throws Error(Exit::input).
   virtual void read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) = 0;
+  // From now on `read` throws Error(Exit::input) where a pixel of one of these roles is not finite, and says which,
+  // in place of repairing it: what a metric judges by must not be made up. Sources that make their frames make finite
+  // ones.
+  virtual void refuse_non_finite(std::span<const std::string>) {}
   // Totals so far, by role.
   virtual std::map<std::string, Repairs> repairs() const = 0;
 };

@@ -230,6 +230,28 @@ TEST_F(SequenceTest, RepairsRadianceAndCounts) {
   EXPECT_EQ(source->repairs().at("color").negative, 1);
 }
 
+TEST_F(SequenceTest, RefusesWhatIsNotFiniteWhereItMustNotRepair) {
+  write("c_0.exr", 6, 2, kColor);
+  write_planes("c_1.exr", 3, 2, kColor, {{1, 1, 1, 1, 1, 1}, {2, 2, 2, 2, 2, kInf}, {3, 3, 3, 3, kNaN, 3}});
+  write("d_0.exr", 6, 2, kColor);
+  write_planes("d_1.exr", 3, 2, kColor, {{kNaN, 1, 1, 1, 1, 1}, {2, 2, 2, 2, 2, 2}, {3, 3, 3, 3, 3, 3}});
+  write("z_0.exr", 3, 2, {{"Z", 4}});
+  write_planes("z_1.exr", 3, 2, {{"Z", 0}}, {{0, kInf, 1e10f, 4, 4, kNaN}});
+  const auto source = open(load(R"({"quell_sequence": 1, "inputs": {
+    "color": "c_@.exr", "emission": "d_@.exr", "depth": {"file": "z_@.exr"} }})"));
+  const std::vector<std::string> strict = {"color", "depth"};
+  source->refuse_non_finite(strict);
+  EXPECT_EQ(read(*source, 0, "color").at(1, 2, 1), 2.0f);
+  EXPECT_EQ(read(*source, 0, "depth").at(0, 2, 1), 4.0f);
+  const std::string way_out = "\n  an error cannot be told from such pixels; repair the file, or leave the frame out";
+  EXPECT_EQ(failure([&] { read(*source, 1, "color"); }),
+            "frame 1: " + path("c_1.exr") + ": 'color' is not finite: pixel (1, 1) holds nan in channel 'B'" + way_out);
+  EXPECT_EQ(failure([&] { read(*source, 1, "depth"); }),
+            "frame 1: " + path("z_1.exr") + ": 'depth' is not finite: pixel (2, 1) holds nan in channel 'Z'" + way_out)
+      << "an infinite depth is a miss";
+  EXPECT_EQ(read(*source, 1, "emission").at(0, 0, 0), 0.0f) << "repaired as ever";
+}
+
 TEST_F(SequenceTest, FillsWhatTheDataWindowLeavesOpen) {
   OIIO::ImageSpec spec(2, 1, 5, OIIO::TypeDesc::FLOAT);
   spec.channelnames = {"R", "G", "B", "Z", "id"};

@@ -26,7 +26,9 @@ class Halves : public FrameSource {
                                                                                 : float(4 * x + 3 * frame);
   }
   std::map<std::string, Repairs> repairs() const override { return {}; }
+  void refuse_non_finite(std::span<const std::string> roles) override { refused.assign(roles.begin(), roles.end()); }
 
+  std::vector<std::string> refused;
   std::map<std::string, int> roles_{
       {"color", QUELL_RADIANCE}, {"reference_a", QUELL_RADIANCE}, {"reference_b", QUELL_RADIANCE}};
 
@@ -52,6 +54,15 @@ TEST_P(MeanOfHalvesTest, IsReadWithAndWithoutThem) {
                                        : roles[i] == "reference_b" ? b
                                                                    : (a + b) / 2);
     }
+}
+
+TEST(MeanOfHalves, MustHaveNothingToRepairInThem) {
+  auto halves = std::make_unique<Halves>();
+  const auto& refused = halves->refused;
+  const auto source = with_mean_of_halves(std::move(halves));
+  const std::vector<std::string> roles{"color", "reference"};
+  source->refuse_non_finite(roles);
+  EXPECT_EQ(refused, (std::vector<std::string>{"color", "reference_a", "reference_b"}));
 }
 
 using Roles = std::vector<std::string>;

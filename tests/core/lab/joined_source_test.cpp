@@ -27,6 +27,9 @@ class Counting : public FrameSource {
     }
   }
   std::map<std::string, Repairs> repairs() const override { return {{"color", {std::int64_t(base_), 0}}}; }
+  void refuse_non_finite(std::span<const std::string> roles) override { refused.assign(roles.begin(), roles.end()); }
+
+  std::vector<std::string> refused;
 
  private:
   std::vector<std::int64_t> frames_;
@@ -63,6 +66,16 @@ TEST(JoinedSource, EachRoleFromItsSource) {
   EXPECT_EQ(b.at(0, 0, 0), 104);
   EXPECT_EQ(c.at(0, 0, 0), 204);
   EXPECT_EQ(joined.repairs().at("reference").non_finite, 200);
+}
+
+TEST(JoinedSource, TellsEachSourceWhatItMustNotRepair) {
+  auto all = parts({3, 4, 5});
+  const auto &first = static_cast<Counting&>(*all[0].source), &second = static_cast<Counting&>(*all[1].source);
+  JoinedSource joined(std::move(all));
+  const std::vector<std::string> roles{"image", "reference"};
+  joined.refuse_non_finite(roles);
+  EXPECT_EQ(first.refused, std::vector<std::string>{"color"});
+  EXPECT_EQ(second.refused, std::vector<std::string>{"color"});
 }
 
 TEST(JoinedSource, AStillServesAllFrames) {
