@@ -24,7 +24,7 @@ struct Decibel {
 
   void run(const quell::Tile& tile) const {
     const double mse = *tile.row(error, 0, 0), p = tile.has(peak) ? double(*tile.row(peak, 0, 0)) : 1.0;
-    const double db = mse > 0 ? 10 * std::log10(p * p / mse) : kMost;
+    const double db = mse <= 0 ? kMost : 10 * std::log10(p * p / mse);  // NaN stays NaN
     *tile.row(ratio, 0, 0) = float(std::clamp(db, -kMost, kMost));
   }
 };

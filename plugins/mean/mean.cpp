@@ -2,7 +2,6 @@
 #include <quell/node.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -35,8 +34,8 @@ struct Mean {
     const auto sums = trim > 0 ? trimmed(tile) : sum_where(tile, [](float) { return true; });
     constexpr double most = std::numeric_limits<float>::max();
     const double mean = sums.pixels ? sums.sum / double(sums.pixels) : 0;
-    // Images that were not finite have no mean.
-    *tile.row(value, 0, 0) = std::isfinite(mean) ? float(std::clamp(mean, -most, most)) : 0;
+    // A map that is not a number anywhere, which no node should give, has a mean that says so.
+    *tile.row(value, 0, 0) = float(std::clamp(mean, -most, most));
     *tile.row(pixels, 0, 0) = float(sums.pixels);
   }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace quell::test {
@@ -64,6 +65,15 @@ TEST(Mean, IsNotLostInManyPixels) {
   // In float a sum of this many would stand still at 2^24.
   const auto map = constant_image(4099, 4099, 1, 1.0f);
   EXPECT_EQ(Node("mean").in("map", map).run("value").at(0, 0, 0), 1.0f);
+}
+
+TEST(Mean, HidesNoNaN) {
+  auto map = constant_image(20, 10, 1, 1);
+  map.at(0, 7, 3) = std::numeric_limits<float>::quiet_NaN();
+  const auto mean = Node("mean").in("map", map).run("value");
+  EXPECT_TRUE(std::isnan(mean.at(0, 0, 0)));
+  EXPECT_TRUE(std::isnan(Node("decibel").in("error", mean).run("decibels").at(0, 0, 0)));
+  EXPECT_TRUE(std::isnan(Node("power").set("exponent", 0.5f).in("value", mean).run("value").at(0, 0, 0)));
 }
 
 TEST(Mean, OfNothingIsZeroFromNoPixels) {
