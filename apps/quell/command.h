@@ -72,6 +72,7 @@ class Commander {
 void add_run(CLI::App&, int& exit);
 void add_check(CLI::App&, int& exit);
 void add_nodes(CLI::App&, int& exit);
+void add_metrics(CLI::App&, int& exit);
 void add_graph(CLI::App&, int& exit);
 void add_plan(CLI::App&, int& exit);
 void add_bench(CLI::App&, int& exit);

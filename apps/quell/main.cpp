@@ -76,6 +76,7 @@ int run(int argc, char** argv) {
   quell::add_run(app, exit);
   quell::add_check(app, exit);
   quell::add_nodes(app, exit);
+  quell::add_metrics(app, exit);
   quell::add_graph(app, exit);
   quell::add_plan(app, exit);
   quell::add_bench(app, exit);

@@ -54,6 +54,10 @@ TEST(References, OfGraphsIsFresh) {
   EXPECT_EQ(generated("docs/graphs.md"), sections) << "./dev docs writes it anew";
 }
 
+TEST(References, OfMetricsIsFresh) {
+  EXPECT_EQ(generated("docs/metrics.md"), "\n" + said({"metrics", "--markdown"})) << "./dev docs writes it anew";
+}
+
 TEST(References, HaveAFreshPictureOfEachGraph) {
   const fs::path folder = fs::path(QUELL_TEST_SOURCE) / "docs/images/graphs";
   std::set<std::string> pictures;
