@@ -34,7 +34,9 @@ struct Difference {
             "squared / (Y² + epsilon). relative_mean: the same with Y's mean over channels below. mrse: squared / (|Y| "
             "+ epsilon)². smape: |X − Y| / (|X| + |Y| + epsilon).",
             {"squared", "absolute", "signed", "relative", "relative_mean", "mrse", "smape"});
-    d.param(epsilon, "epsilon", "Keeps relative measures finite in the dark. 0: where all are 0, so is the error.")
+    d.param(
+         epsilon, "epsilon",
+         "Keeps relative measures finite in the dark, in units of their divisor. 0: where all are 0, so is the error.")
         .range(0, 1e6);
   }
 

@@ -22,7 +22,8 @@ struct Percentile {
     d.out(
         value, "value",
         "Of the n numbers in order, the one at share·n, rounded down and counted from 0, or the last; 0 without any.");
-    d.param(share, "share", "0: the smallest, 0.5: the median, 1: the largest.").range(0, 1);
+    d.param(share, "share", "Share of the numbers that are smaller. 0: the smallest, 0.5: the median, 1: the largest.")
+        .range(0, 1);
     d.param(
         positive, "positive",
         "Only numbers above 0 enter, for what is divided by or has a logarithm taken: half of a frame may be black.");

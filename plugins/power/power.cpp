@@ -19,7 +19,7 @@ struct Power {
         .optional()
         .anywhere();
     d.out(result, "value", "The product; the largest float where that would overflow.").passes(value);
-    d.param(exponent, "exponent", "0.5 is the square root.").range(0, 16);
+    d.param(exponent, "exponent", "A pure number; 0.5 is the square root.").range(0, 16);
     d.param(scale, "scale", "A factor, as 1000 for thousandths.").range(-1e6, 1e6);
   }
 

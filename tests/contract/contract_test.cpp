@@ -126,12 +126,12 @@ bool is_number(const quell_param& p) { return p.kind == QUELL_INT || p.kind == Q
 bool names_its_unit(const char* doc) {
   std::string text(doc);
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  constexpr std::string_view kUnits[] = {"pixel",       "frames",      "sample",         "channel",
-                                         "times",       "multiplies",  "share",          "cosine",
-                                         "radians",     "stops",       "unit of",        "units of",
-                                         "unit or",     "same unit",   "image's unit",   "albedo",
-                                         "radiance",    "scene units", "standard error", "standard deviation",
-                                         "distances of"};
+  constexpr std::string_view kUnits[] = {"pixel",        "frames",      "sample",         "channel",
+                                         "times",        "multiplies",  "share",          "cosine",
+                                         "radians",      "stops",       "unit of",        "units of",
+                                         "unit or",      "same unit",   "image's unit",   "albedo",
+                                         "radiance",     "scene units", "standard error", "standard deviation",
+                                         "distances of", "factor",      "pure number"};
   return std::ranges::any_of(kUnits, [&](auto unit) { return text.find(unit) != text.npos; });
 }
 
