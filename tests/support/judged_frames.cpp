@@ -1,8 +1,11 @@
 // Runs graphs over frames in memory and takes the means of what is measured of each frame.
 #include "tests/support/judged_frames.h"
 
+#include <quell/types.h>
+
 #include "tests/support/data_sequence.h"
 #include "tests/support/picture_metrics.h"
+#include "tests/support/run_node.h"
 #include "tests/support/run_shipped.h"
 #include "tests/support/trace_room.h"
 
@@ -10,16 +13,6 @@
 #include <utility>
 
 namespace quell::test {
-
-namespace {
-
-std::vector<std::string> names(const std::map<std::string, int>& roles) {
-  std::vector<std::string> all;
-  for (const auto& [name, type] : roles) all.push_back(name);
-  return all;
-}
-
-}  // namespace
 
 Pictures JudgedFrames::run(const std::string& graph, std::vector<Edit> edits) {
   Pictures pictures;
@@ -35,10 +28,13 @@ Pictures JudgedFrames::run(const std::string& graph, std::vector<Edit> edits) {
 
 Quality JudgedFrames::judge(const Pictures& pictures) const {
   Quality mean;
+  const double share = 1.0 / double(references_.size());
   for (const auto& [frame, halves] : references_) {
     const Reference reference{halves.a, halves.b};
-    mean.psnr += psnr(pictures.at(frame), reference) / double(references_.size());
-    mean.relative_error += relative_error(pictures.at(frame), reference) / double(references_.size());
+    const Image& picture = pictures.at(frame);
+    mean.psnr += share * psnr(picture, reference);
+    mean.relative_error += share * relative_error(picture, reference);
+    mean.brightness_error += share * brightness_error(picture, reference);
   }
   int steps = 0;
   for (const auto frame : frames_.frames()) {
@@ -63,17 +59,23 @@ JudgedFrames judged_scene(const std::string& scene, const std::vector<std::int64
     };
     references[frame] = {half(1001), half(1002)};
   }
-  return {KeptFrames(*source, names(source->roles())), std::move(references)};
+  return {KeptFrames(*source), std::move(references)};
 }
 
 JudgedFrames judged_cycles_cornell() {
   DataSequence room("cycles-cornell", "cycles-cornell");
-  auto roles = names(room.files().roles());
-  std::erase_if(roles, [](const std::string& role) { return role.starts_with("reference"); });
+  std::vector<std::string> roles;  // a reference is not there for every frame
+  for (const auto& [role, type] : room.files().roles())
+    if (!role.starts_with("reference")) roles.push_back(role);
   std::map<std::int64_t, ReferenceHalves> references;
   for (const auto frame : room.files().reference_frames())
     references[frame] = {room.read(frame, "reference_a"), room.read(frame, "reference_b")};
-  return {KeptFrames(room.files(), roles), std::move(references)};
+  KeptFrames frames(room.files(), roles);
+  frames.add("position", QUELL_POSITION, [&](std::int64_t frame) {
+    const auto &depth = frames.image(frame, "depth"), &camera = frames.image(frame, "camera");
+    return Node("position_from_depth").in("depth", depth).in("camera", camera).run("position");
+  });
+  return {std::move(frames), std::move(references)};
 }
 
 }  // namespace quell::test

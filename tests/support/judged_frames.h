@@ -11,9 +11,9 @@
 
 namespace quell::test {
 
-// Means over the frames: of the first two over those that have a reference, of flicker over all that have a past.
+// Means over the frames: of flicker over all that have a past, of the others over those that have a reference.
 struct Quality {
-  double psnr = 0, relative_error = 0, flicker = 0;
+  double psnr = 0, relative_error = 0, brightness_error = 0, flicker = 0;
 };
 
 struct ReferenceHalves {
@@ -43,7 +43,7 @@ JudgedFrames judged_scene(const std::string& scene, const std::vector<std::int64
                           const std::set<std::int64_t>& cuts, const std::vector<std::int64_t>& judged, int spp,
                           int width, int height);
 
-// The Cycles room, of the data that QUELL_TEST_DATA names.
+// The Cycles room, of the data that QUELL_TEST_DATA names, with positions computed from depth and camera.
 JudgedFrames judged_cycles_cornell();
 
 }  // namespace quell::test

@@ -5,7 +5,9 @@
 
 namespace quell::test {
 
-KeptFrames::KeptFrames(FrameSource& source, const std::vector<std::string>& roles) : frames_(source.frames()) {
+KeptFrames::KeptFrames(FrameSource& source, std::vector<std::string> roles) : frames_(source.frames()) {
+  if (roles.empty())
+    for (const auto& [role, type] : source.roles()) roles.push_back(role);
   for (const auto& role : roles) roles_[role] = source.roles().at(role);
   for (const auto frame : frames_) {
     if (source.cut_before(frame)) cuts_.insert(frame);
@@ -16,6 +18,11 @@ KeptFrames::KeptFrames(FrameSource& source, const std::vector<std::string>& role
     source.read(frame, roles, views);
     for (std::size_t i = 0; i < roles.size(); ++i) images_[frame][roles[i]] = std::move(images[i]);
   }
+}
+
+void KeptFrames::add(const std::string& role, int type, const std::function<Image(std::int64_t)>& make) {
+  roles_[role] = type;
+  for (const auto frame : frames_) images_[frame][role] = make(frame);
 }
 
 std::vector<quell_shape> KeptFrames::shapes(std::int64_t frame, std::span<const std::string> roles) {

@@ -5,6 +5,7 @@
 #include "core/sequence/frame_source.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -14,10 +15,12 @@ namespace quell::test {
 
 class KeptFrames : public FrameSource {
  public:
-  // All frames, in these roles.
-  KeptFrames(FrameSource&, const std::vector<std::string>& roles);
+  // All frames, in these roles; without any, in all.
+  explicit KeptFrames(FrameSource&, std::vector<std::string> roles = {});
 
   const Image& image(std::int64_t frame, const std::string& role) const { return images_.at(frame).at(role); }
+  // One more role (quell_type `type`), made of each frame.
+  void add(const std::string& role, int type, const std::function<Image(std::int64_t frame)>& make);
 
   const std::vector<std::int64_t>& frames() const override { return frames_; }
   bool cut_before(std::int64_t frame) const override { return cuts_.contains(frame); }

@@ -32,6 +32,15 @@ double relative_error(const Image& x, Reference r) {
   return sum / (3.0 * x.width() * x.height());
 }
 
+double brightness_error(const Image& x, Reference r) {
+  double sum = 0, reference = 0;
+  for (int c = 0; c < 3; ++c)
+    for (int v = 0; v < x.height(); ++v)
+      for (int u = 0; u < x.width(); ++u)
+        sum += x.at(c, u, v), reference += 0.5 * (double(r.a.at(c, u, v)) + double(r.b.at(c, u, v)));
+  return sum / reference - 1;
+}
+
 double flicker(const Image& x, const Image& before, const Image& motion, const Image& id, const Image& id_before) {
   double sum = 0;
   long count = 0;

@@ -16,6 +16,9 @@ double psnr(const Image& x, Reference);
 // mean (X - A)(X - B) / (R² + 0.01), R the mean of A and B.
 double relative_error(const Image& x, Reference);
 
+// sum X / sum R - 1: light that was lost or made up.
+double brightness_error(const Image& x, Reference);
+
 // mean |T(X) - T(X before)| · 1000 along motion, X before interpolated between four pixels, where all four show the
 // object that X shows.
 double flicker(const Image& x, const Image& before, const Image& motion, const Image& id, const Image& id_before);
