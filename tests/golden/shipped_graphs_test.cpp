@@ -33,7 +33,8 @@ struct Gain {
 const std::map<std::string, Gain> kGains = {
     {"temporal_accumulation", {5.5, 0.15, 0.25}},
     {"dual_rate_accumulation", {5.5, 0.15, 0.25}},
-    {"taa", {1.5, 0.5, 0.15}},
+    {"taa", {4, 0.15, 0.15}},
+    {"eaw", {8, 0.8, 0.35}},
     {"joint_bilateral", {9, 0.05, 0.4}},
     {"separable_bilateral", {9, 0.05, 0.4}},
     {"svgf_falcor", {9, 0.04, 0.2}},
