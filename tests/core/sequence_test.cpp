@@ -456,10 +456,10 @@ TEST_F(SequenceTest, TheBuiltInSequencesHaveSourcesForFramesAndReference) {
       EXPECT_NE(seed(half.node), seed(*sequence.source)) << "the noise of the frames must not be in their reference";
       EXPECT_EQ(half.node.set->find("spp")->integer, 512);
     }
-    EXPECT_EQ(sequence.frames.size(), 32u);
+    EXPECT_GE(sequence.frames.size(), 16u);
     ++found;
   }
-  EXPECT_EQ(found, 2);
+  EXPECT_GE(found, 5);
 }
 
 TEST_F(SequenceTest, ReadsReferencesWhereThereAreSome) {
