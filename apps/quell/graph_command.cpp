@@ -18,8 +18,8 @@ struct GraphArguments {
   std::string format = "dot";
 };
 
-std::string resolved(const Graph& graph, const std::filesystem::path& graphs) {
-  auto written = write_graph(graph, graphs);
+std::string resolved(const Graph& graph, const GraphInfo& info, const std::filesystem::path& graphs) {
+  auto written = write_graph(graph, graphs, info.metric);
   for (const auto& file : written.files)
     fmt::print(stderr, "warning: a graph names no files, so this belongs to its command line: --set '{}'\n", file);
   return std::move(written.text);
@@ -34,7 +34,7 @@ int draw(const GraphArguments& a) {
   fmt::print("{}", a.format == "svg"        ? draw_svg(*graph)
                    : a.format == "mermaid"  ? draw_mermaid(*graph)
                    : a.format == "markdown" ? guide_markdown(info, *graph)
-                   : a.format == "json"     ? resolved(*graph, commander.locations().graphs)
+                   : a.format == "json"     ? resolved(*graph, info, commander.locations().graphs)
                                             : draw_dot(*graph));
   return code;
 }

@@ -40,7 +40,7 @@ class Writer {
  public:
   Writer(const Graph& graph, const std::filesystem::path& graphs) : graph_(graph), graphs_(graphs) {}
 
-  WrittenGraph write() {
+  WrittenGraph write(const std::optional<MetricKey>& metric) {
     J inputs = J::object(), outputs = J::object();
     for (const auto& in : graph_.inputs) inputs[in.name] = type_name(in.type);
     for (const auto& out : graph_.outputs)
@@ -51,6 +51,7 @@ class Writer {
     auto& text = out_.text = "{\n  \"quell\": 1,\n";
     if (!graph_.name.empty()) text += fmt::format("  \"name\": {},\n", spaced(graph_.name));
     if (!graph_.about.empty()) text += fmt::format("  \"about\": {},\n", spaced(graph_.about));
+    if (metric) text += fmt::format("  \"metric\": {},\n", spaced(key(*metric)));
     text += fmt::format("  \"inputs\": {},\n", spaced(inputs));
     text += fmt::format("  \"nodes\": {{\n{}\n  }},\n", fmt::join(nodes, ",\n"));
     text += fmt::format("  \"outputs\": {}\n}}\n", spaced(outputs));
@@ -58,6 +59,11 @@ class Writer {
   }
 
  private:
+  static J key(const MetricKey& metric) {
+    J j{{"better", metric.higher_is_better ? "higher" : "lower"}, {"unit", metric.unit}};
+    j["perfect"] = metric.perfect ? J(*metric.perfect) : J();
+    return j;
+  }
   // `as` is the type that the reader sees; 0: the wire's own.
   J wire(const Wire& w, int as) const {
     J from = reference_text(graph_, w);
@@ -174,8 +180,9 @@ class Writer {
 
 }  // namespace
 
-WrittenGraph write_graph(const Graph& graph, const std::filesystem::path& graphs) {
-  return Writer(graph, graphs).write();
+WrittenGraph write_graph(const Graph& graph, const std::filesystem::path& graphs,
+                         const std::optional<MetricKey>& metric) {
+  return Writer(graph, graphs).write(metric);
 }
 
 std::string reference_text(const Graph& graph, const Wire& w) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "core/graph/graph.h"
+#include "core/graph/metric_key.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +20,10 @@ struct WrittenGraph {
   std::vector<std::string> files;
 };
 
-// `graphs` is the folder of installed graphs, whose files are written as "quell:…".
-WrittenGraph write_graph(const Graph&, const std::filesystem::path& graphs);
+// `graphs` is the folder of installed graphs, whose files are written as "quell:…". `metric` is the key of a graph that
+// is one.
+WrittenGraph write_graph(const Graph&, const std::filesystem::path& graphs,
+                         const std::optional<MetricKey>& metric = std::nullopt);
 
 // What a wire reads, as --tap and graph files name it: "level0.atrous.image@-1". Its start is not said.
 std::string reference_text(const Graph&, const Wire&);

@@ -2,11 +2,11 @@
 #include <quell/node.h>
 
 #include <cmath>
-#include <limits>
 
 namespace {
 
-constexpr float kMost = std::numeric_limits<float>::max();
+// Farther than anything that an image holds, and a number that its shortest decimal form does not exceed.
+constexpr float kMost = 0x1p127f;
 
 struct InRange {
   quell::In<quell::Any> image;

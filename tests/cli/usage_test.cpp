@@ -77,6 +77,8 @@ std::vector<Mistake> mistakes() {
        2,
        {"there is no sequence 'rom'", "built in are: arcade, hall, room, yard, yard_undeclared",
         "Did you mean 'room'?"}},
+      {"UnknownMetric", {"metrics", "flp"}, 2, {"there is no metric 'flp'", "Did you mean 'flip'?"}},
+      {"NoMetric", {"metrics", "quell:svgf.json"}, 2, {"is no metric: it lacks \"metric\""}},
       {"UnknownBoth", {"run", "svgff", "rom"}, 2, {"there is no graph 'svgff'", "there is no sequence 'rom'"}},
       {"MissingGraphFile", {"check", "no.json"}, 2, {"cannot read 'no.json': No such file"}},
       {"MissingSequenceFile", {"run", "svgf", "no.json"}, 3, {"cannot read 'no.json': No such file"}},

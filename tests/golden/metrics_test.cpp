@@ -1,9 +1,11 @@
 // The shipped metrics against their formulas, over all that they are made of.
+#include "core/graph/write.h"
 #include "core/lab/metric.h"
 #include "tests/support/judge.h"
 #include "tests/support/paths.h"
 #include "tests/support/picture_metrics.h"
 #include "tests/support/run_node.h"
+#include "tests/support/scratch.h"
 
 #include <quell/types.h>
 
@@ -12,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
@@ -41,6 +44,24 @@ TEST(ShippedMetrics, Load) {
     ASSERT_TRUE(metric) << diagnostics.format();
     EXPECT_EQ(diagnostics.format(), "") << name;
     EXPECT_FALSE(metric->title.empty() || metric->about.empty()) << name;
+  }
+}
+
+TEST(ShippedMetrics, AreMetricsStillWhenWrittenOut) {
+  const auto graphs = std::filesystem::path(QUELL_TEST_SOURCE) / "graphs";
+  const Scratch scratch;
+  for (const auto& name : installed_metrics(graphs)) {
+    Diagnostics diagnostics;
+    const auto metric = load_metric(name, graphs, registry(), diagnostics);
+    ASSERT_TRUE(metric);
+    const auto file = scratch.path(name + ".json");
+    std::ofstream(file) << write_graph(metric->graph, graphs, metric->key).text;
+    const auto again = load_metric(file, graphs, registry(), diagnostics);
+    ASSERT_TRUE(again) << diagnostics.format();
+    EXPECT_EQ(fingerprint(again->graph), fingerprint(metric->graph)) << name;
+    EXPECT_EQ(again->key.higher_is_better, metric->key.higher_is_better) << name;
+    EXPECT_EQ(again->key.unit, metric->key.unit) << name;
+    EXPECT_EQ(again->key.perfect, metric->key.perfect) << name;
   }
 }
 
@@ -90,8 +111,8 @@ TEST(ShippedMetrics, AgreeWithThoseOfTheTests) {
               1e-6);
 }
 
-// Frames whose picture moves by whole pixels: then the nearest pixel, which the tests' own flicker takes, is all there
-// is, but at the edge of the image and of objects.
+// Motion lies between pixels, so that all four have a share: the tests' own flicker wants the four even where one has
+// none.
 TEST(ShippedMetrics, FlickerIsThatOfTheTests) {
   const auto first = pictures(9), second = pictures(10), motion = [] {
     Image m(kWidth, kHeight, 2);
