@@ -16,6 +16,7 @@ class Tables(PageTest):
             value: cell.dataset.value, number: cell.querySelector('.number')?.textContent ?? null,
             interval: cell.querySelector('.interval')?.textContent ?? null,
             change: cell.querySelector('.change')?.textContent ?? null,
+            kind: cell.querySelector('.change')?.className.split(' ')[1] ?? null,
             best: cell.classList.contains('best') && Boolean(cell.querySelector('.star')) })) }))""", table)
 
     def test_numbers_are_those_of_the_results(self):
@@ -57,6 +58,26 @@ class Tables(PageTest):
             self.assertAlmostEqual(percent, 100 * (mean["relmse"] / base["relmse"] - 1), delta=0.51)
             decibels = float(row["cells"][2]["change"].replace("−", "-").removesuffix(" dB"))
             self.assertAlmostEqual(decibels, mean["psnr_unbiased"] - base["psnr_unbiased"], delta=0.0051)
+
+    def test_changes_tell_gain_from_loss_and_both_from_chance(self):
+        seen = set()
+        for row in self.rows()[1:]:
+            for i, metric in enumerate(COLUMNS, 1):
+                summary = self.expected.summary[row["key"], None, metric]
+                sign = 1 if self.expected.metrics[metric]["better"] == "higher" else -1
+                chance = summary["difference_low"] <= 0 <= summary["difference_high"]
+                kind = "same" if chance else "gain" if sign * summary["difference"] > 0 else "loss"
+                self.assertEqual(row["cells"][i]["kind"], kind, f"{metric} of {row['key']}")
+                seen.add(kind)
+        self.assertEqual(seen, {"same", "gain", "loss"})
+        # Against any other variant there is only that one's own interval.
+        self.choose("tables", "Compared with", "first_level")
+        base = self.expected.summary["first_level", None, "relmse"]
+        for row in self.rows():
+            if row["key"] != "first_level":
+                mean = self.expected.summary[row["key"], None, "relmse"]["mean"]
+                kind = "same" if base["low"] <= mean <= base["high"] else "gain" if mean < base["mean"] else "loss"
+                self.assertEqual(row["cells"][1]["kind"], kind, row["key"])
 
     def head(self, column, table="#summary"):
         return self.find(f"{table} th[data-column='{column}']")

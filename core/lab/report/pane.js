@@ -5,16 +5,18 @@ import { steer } from './view.js';
 export class Pane {
   constructor(view, label) {
     this.view = view;
-    this.pictures = [];  // one, or left and right of the divider
+    this.pictures = [];  // one, or left and right of the divider; undefined where a frame has none
     this.split = 0.5;    // share of the pane that is left of the divider
     this.canvas = element('canvas', { tabindex: '0', role: 'img', 'aria-label': label });
     steer(this.canvas, view, (u, v) => this.pixel_at(u, v));
     new ResizeObserver(() => this.draw()).observe(this.canvas);
   }
 
+  get picture() { return this.pictures.find(Boolean); }
+
   // The pixel under a place in the pane; null beside the image.
   pixel_at(u, v) {
-    const picture = this.pictures[0];
+    const { picture } = this;
     if (!picture) return null;
     const x = Math.floor((this.view.x + (u - 0.5) / this.view.zoom) * picture.width);
     const y = Math.floor((this.view.y + (v - 0.5) / this.view.zoom) * picture.height);
@@ -24,23 +26,22 @@ export class Pane {
   show(pictures, tone) {
     this.pictures = pictures;
     this.tone = tone;
-    if (pictures[0]) {
-      this.canvas.style.aspectRatio = `${pictures[0].width} / ${pictures[0].height}`;
-    }
+    if (this.picture) this.canvas.style.aspectRatio = `${this.picture.width} / ${this.picture.height}`;
     this.draw();
   }
 
   draw() {
-    const [first, second] = this.pictures;
     const density = window.devicePixelRatio || 1;
     const width = Math.round(this.canvas.clientWidth * density), height = Math.round(this.canvas.clientHeight * density);
-    if (!first || !width || !height) return;
+    if (!width || !height) return;
     if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
     // A finger scrolls the page until there is something to pan.
     this.canvas.style.touchAction = this.view.zoom > 1 ? 'none' : 'pan-y';
     const context = this.canvas.getContext('2d');
     context.clearRect(0, 0, width, height);
+    if (!this.picture) return;
     const draw_one = (picture, from, to) => {
+      if (!picture) return;
       const scale = width / picture.width * this.view.zoom;
       context.save();
       context.beginPath();
@@ -52,10 +53,10 @@ export class Pane {
         height / 2 - this.view.y * height * this.view.zoom, width * this.view.zoom, height * this.view.zoom);
       context.restore();
     };
-    const divider = second ? Math.round(this.split * width) : width;
-    draw_one(first, 0, divider);
-    if (second) draw_one(second, divider, width);
-    this.draw_mark(context, first, width, height, density);
+    const divider = this.pictures.length > 1 ? Math.round(this.split * width) : width;
+    draw_one(this.pictures[0], 0, divider);
+    draw_one(this.pictures[1], divider, width);
+    this.draw_mark(context, this.picture, width, height, density);
   }
 
   // A frame around the pixel that is read out, at least eight dots wide, dark and light to show on all.

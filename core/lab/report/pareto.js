@@ -9,7 +9,8 @@ import { legend, look } from './state.js';
 export function pareto_front(points, metric) {
   const front = [];
   for (const p of points.toSorted((a, b) => a.cost - b.cost || (better(metric, a.error, b.error) ? -1 : 1))) {
-    if (!front.length || better(metric, p.error, front.at(-1).error)) front.push(p);
+    const last = front.at(-1);
+    if (!last || better(metric, p.error, last.error) || (p.cost === last.cost && p.error === last.error)) front.push(p);
   }
   return front;
 }
@@ -76,7 +77,7 @@ export function pareto_section(results, shown) {
   }
 
   const redraw = at_width(frame, draw);
-  const pick_sequence = choice('Sequence', [['', 'All'], ...results.sequences.map((s) => [s.name, s.name])], redraw);
+  const pick_sequence = choice('Sequence', results.sequence_choices, redraw);
   const pick_metric = choice('Metric', results.metrics.map((m) => [m.name, title_of(m)]), redraw);
   shown.listen(redraw);
   section.append(element('div', { class: 'bar' }, pick_sequence.root, pick_metric.root), frame, list,

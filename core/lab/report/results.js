@@ -24,11 +24,15 @@ export function read_results() {
   return {
     ...results,
     images: parts.images,
+    // For summaries: all, then each, unless there is but one.
+    sequence_choices: [...(results.sequences.length > 1 ? [['', 'All']] : []),
+      ...results.sequences.map((s) => [s.name, s.name])],
     graph: (variant) => parts.graphs.find((g) => g.variant === variant),
     place: (variant) => order.get(variant),
     metric: (name) => results.metrics.find((m) => m.name === name),
-    // `sequence` '' means all of them.
-    summary_of: (variant, sequence, metric) => summary.get(key(variant, sequence, metric)),
+    // `sequence` '' means all of them; one alone is all.
+    summary_of: (variant, sequence, metric) => summary.get(key(variant, sequence, metric))
+      ?? (results.sequences.length === 1 ? summary.get(key(variant, results.sequences[0].name, metric)) : undefined),
     // The mean over seeds; null where there is no number.
     value_at(variant, sequence, metric, frame) {
       const values = rows.get(key(variant, sequence, metric, frame)) ?? [];

@@ -10,8 +10,17 @@ function variant_link(variant) {
   return element('a', { href: `#variant-${encodeURIComponent(variant.name)}`, title: variant.about || undefined }, variant.name);
 }
 
+// Whether the interval of the difference holds 0, where the results have one: it is against the first variant, frame by
+// frame. Else whether the mean lies in the other's interval.
+function may_be_chance(summary, base, paired) {
+  if (paired && summary.difference_low !== undefined && summary.difference_low !== null) {
+    return summary.difference_low <= 0 && summary.difference_high >= 0;
+  }
+  return base.low <= summary.mean && summary.mean <= base.high;
+}
+
 // The number, its confidence interval (of means) and how it stands to the variant that all are compared with.
-function number_cell(metric, summary, statistic, base) {
+function number_cell(metric, summary, statistic, base, paired) {
   const value = summary?.[statistic] ?? null;
   const content = [element('span', { class: 'number', title: value === null ? 'no number' : String(value) },
     number_text(value))];
@@ -21,8 +30,7 @@ function number_cell(metric, summary, statistic, base) {
   }
   const other = base?.[statistic] ?? null;
   if (base && base !== summary && value !== null && other !== null) {
-    // What lies within the other's interval may be chance.
-    const chance = value === other || (statistic === 'mean' && base.low <= value && value <= base.high);
+    const chance = value === other || (statistic === 'mean' && may_be_chance(summary, base, paired));
     const kind = chance ? 'same' : better(metric, value, other) ? 'gain' : 'loss';
     content.push(element('span', { class: `change ${kind}` }, beside(value, other, metric.unit)));
   }
@@ -52,7 +60,7 @@ function summary_table(results, sequence, statistic, compared) {
     const cells = [{ value: variant.name, content: variant_link(variant) }];
     for (const metric of results.metrics) {
       cells.push(number_cell(metric, results.summary_of(variant.name, sequence, metric.name), statistic,
-        results.summary_of(compared, sequence, metric.name)));
+        results.summary_of(compared, sequence, metric.name), compared === results.variants[0].name));
     }
     if (timed) {
       const cost = results.cost_of(variant.name), base = results.cost_of(compared);
@@ -89,7 +97,7 @@ function sequence_table(results, metric, statistic) {
 
 export function tables_section(results) {
   const section = document.getElementById('tables');
-  const sequences = [['', 'All'], ...results.sequences.map((s) => [s.name, s.name])];
+  const sequences = results.sequence_choices;
   const frame = element('div', { id: 'summary' }), by_sequence = element('div', { id: 'by-sequence' });
   const draw = () => frame.replaceChildren(
     summary_table(results, sequence.select.value, statistic.select.value, compared.select.value));

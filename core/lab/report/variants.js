@@ -38,7 +38,7 @@ function variant_details(results, variant, place) {
   const fill = () => {
     if (!details.open || inside.firstChild) return;
     if (edits.length) inside.append(element('ul', { class: 'edits' }, edits.map((e) => element('li', {}, element('code', {}, e)))));
-    const facts = [variant.nodes !== undefined ? `${variant.nodes} nodes` : null,
+    const facts = [variant.baseline ? 'baseline' : null, variant.nodes !== undefined ? `${variant.nodes} nodes` : null,
       variant.own_nodes !== undefined ? `${variant.own_nodes} shared with no other variant` : null,
       variant.fingerprint ? `fingerprint ${variant.fingerprint}` : null].filter(Boolean).join(', ');
     if (facts) inside.append(element('p', { class: 'hint' }, facts));

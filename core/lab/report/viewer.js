@@ -65,11 +65,12 @@ export function viewer_section(results, shown) {
 
   async function load() {
     const mine = ++turn, now = tone();
+    const chosen = (id) => tiles.find((t) => t.subject.id === id).subject;
     const wanted = [...tiles.filter((t) => !t.root.hidden).map((t) => [t.pane, [t.subject]]),
-      [stage, [before.select.value, after.select.value].map((id) => tiles.find((t) => t.subject.id === id)?.subject)
-        .filter(Boolean)]];
-    const ready = await Promise.all(wanted.map(async ([pane, list]) => [pane,
-      await Promise.all(list.map(entry).filter(Boolean).map(picture_of))]));
+      [stage, [chosen(before.select.value), chosen(after.select.value)]]];
+    // A frame may lack an image, as references are often of a few frames only.
+    const decode = (subject) => (entry(subject) ? picture_of(entry(subject)) : undefined);
+    const ready = await Promise.all(wanted.map(async ([pane, list]) => [pane, await Promise.all(list.map(decode))]));
     if (mine !== turn) return;  // something else is wanted by now
     for (const [pane, pictures] of ready) pane.show(pictures, now);
     for (const t of tiles) t.number.textContent = number_of(t.subject);
@@ -86,7 +87,7 @@ export function viewer_section(results, shown) {
 
   function read_out() {
     for (const t of tiles) {
-      const picture = t.pane.pictures[0];
+      const { picture } = t.pane;
       const inside = picture && view.pixel && view.pixel[0] < picture.width && view.pixel[1] < picture.height;
       t.value.textContent = inside ? picture.at(...view.pixel).map(number_text).join('  ') : '';
     }
@@ -107,10 +108,6 @@ export function viewer_section(results, shown) {
       return { subject, pane, root, number: numbers, value };
     });
     grid.replaceChildren(...tiles.map((t) => t.root));
-    const options = () => tiles.map((t) => element('option', { value: t.subject.id }, t.subject.title));
-    before.select.replaceChildren(...options());
-    after.select.replaceChildren(...options());
-    after.select.selectedIndex = Math.min(1, tiles.length - 1);
     frames = results.sequences.find((s) => s.name === sequence()).frames.filter((f) =>
       results.images.some((i) => i.sequence === sequence() && i.frame === f));
     scrub.max = frames.length - 1;
@@ -122,11 +119,25 @@ export function viewer_section(results, shown) {
     show_tiles();
   }
 
+  // The choice stays where it can.
+  function offer(select, place) {
+    const before_that = select.value, offered = tiles.filter(has_shown);
+    select.replaceChildren(...offered.map((t) => element('option', { value: t.subject.id }, t.subject.title)));
+    const same = offered.findIndex((t) => t.subject.id === before_that);
+    select.selectedIndex = same >= 0 ? same : Math.min(place, offered.length - 1);
+  }
+
   // Input and reference have no error map.
+  function has_shown(tile) {
+    return tile.subject.kind === 'image' || map() === '';
+  }
+
   function show_tiles() {
     for (const t of tiles) {
-      t.root.hidden = t.subject.kind === 'image' ? !shown.has(t.subject.variant) : map() !== '';
+      t.root.hidden = !has_shown(t) || (t.subject.kind === 'image' && !shown.has(t.subject.variant));
     }
+    offer(before.select, 0);
+    offer(after.select, 1);
     pick_metric.root.hidden = map() !== '';
     load();
   }
@@ -146,7 +157,7 @@ export function viewer_section(results, shown) {
   const button = (text, label, act) => element('button', { type: 'button', 'aria-label': label, title: label,
     onclick: act }, text);
   const pixel_of = () => {
-    const picture = tiles.find((t) => t.pane.pictures.length)?.pane.pictures[0];
+    const picture = tiles.find((t) => t.pane.picture)?.pane.picture;
     if (!picture || pixel_x.value === '' || pixel_y.value === '') return;
     const within = (text, size) => Math.max(0, Math.min(size - 1, Math.floor(Number(text))));
     view.read([within(pixel_x.value, picture.width), within(pixel_y.value, picture.height)]);
