@@ -3,10 +3,10 @@
 
 #include "apps/quell/options.h"
 
-#include "core/graph/params.h"
 #include "core/json/json.h"
 #include "core/report/suggest.h"
 #include "core/run/node_source.h"
+#include "core/run/source_node.h"
 #include "core/sequence/image_file.h"
 
 #include <quell/types.h>
@@ -137,7 +137,7 @@ std::optional<Sequence> Commander::load(const SequenceOptions& options) {
     throw Error(Exit::usage,
                 fmt::format("--root {}: this sequence is made by a source node and names no files", options.root));
   // Before the graph is checked against what the source gives, or every one of its inputs would be missing.
-  if (sequence && sequence->source && !source_type(*sequence->source)) return std::nullopt;
+  if (sequence && sequence->source && !source_type(*sequence->source, registry_, diagnostics_)) return std::nullopt;
   return sequence;
 }
 
@@ -162,58 +162,26 @@ std::optional<Graph> Commander::load(const GraphOptions& options, const Sequence
   return load_graph(request, registry_, diagnostics_, info);
 }
 
-// The type of a source node; reports when there is none.
-const NodeType* Commander::source_type(const SourceNode& source) {
-  if (const auto* type = registry_.find(source.type)) return type;
-  if (const auto* problem = registry_.problem(source.type))
-    diagnostics_.error(source.position, "source.type", fmt::format("the plugin of '{}' cannot be used", source.type),
-                       {fmt::format("{}: {}", problem->file.string(), problem->text)}, Exit::plugin);
-  else
-    diagnostics_.error(source.position, "source.type", fmt::format("there is no node type '{}'", source.type),
-                       {possibilities("there are", source.type, registry_.names())});
-  return nullptr;
-}
+namespace {
 
-std::optional<Instance> Commander::source_instance(const SourceNode& source, const std::vector<std::string>& edits) {
-  const auto* type = source_type(source);
-  if (!type) return std::nullopt;
-  Instance instance(*type);
-  Faults faults(diagnostics_);
-  const Library library(locations_.graphs, faults);
-  const auto assign_one = [&](const std::string& name, const Json& value, const std::string& where, bool trusted) {
-    const int param = type->find_param(name);
-    if (param < 0) {
-      std::vector<std::string> names;
-      for (const auto& p : type->params()) names.emplace_back(p.name);
-      diagnostics_.error(value.position, where, fmt::format("node type '{}' has no parameter '{}'", type->name(), name),
-                         {possibilities("it has", name, names)});
-      return;
-    }
-    if (auto problem = assign(instance, param, value, trusted, library); !problem.text.empty())
-      diagnostics_.error(value.position, where, problem.text, problem.notes);
-  };
-  if (source.set)
-    for (const auto& member : source.set->members)
-      assign_one(member.key, member.value, "source.set." + member.key, true);
+// --source NAME=VALUE: as with --set, JSON when it is that, else text.
+std::vector<JsonMember> source_parameters(const std::vector<std::string>& edits, Diagnostics& diagnostics) {
+  std::vector<JsonMember> members;
   for (std::size_t i = 0; i < edits.size(); ++i) {
     const auto equals = edits[i].find('=');
     if (equals == std::string::npos)
       throw Error(Exit::usage, fmt::format("--source {}: expected NAME=VALUE, as in --source width=1920", edits[i]));
     const auto name = edits[i].substr(0, equals), text = edits[i].substr(equals + 1);
-    // As with --set: JSON when it is that, else text.
     Diagnostics quiet;
     auto value = parse_json("", text, quiet).value_or(Json());
     if (!quiet.ok()) value.kind = Json::Kind::text, value.text = text;
-    value.position = {diagnostics_.sources.add(fmt::format("--source #{}", i + 1), edits[i]), 0};
-    assign_one(name, value, name, true);
+    value.position = {diagnostics.sources.add(fmt::format("--source #{}", i + 1), edits[i]), 0};
+    members.push_back({name, value.position, std::move(value)});
   }
-  // Defaults may name installed files too.
-  for (std::size_t p = 0; p < type->params().size(); ++p)
-    if (type->params()[p].kind == QUELL_PATH)
-      if (const auto file = library.installed(std::string(instance.get_text(int(p)))))
-        instance.set_text(int(p), file->string());
-  return instance;
+  return members;
 }
+
+}  // namespace
 
 std::unique_ptr<FrameSource> Commander::open(const Sequence& sequence, const SequenceOptions& options,
                                              const std::vector<std::string>& roles, int threads,
@@ -224,7 +192,8 @@ std::unique_ptr<FrameSource> Commander::open(const Sequence& sequence, const Seq
                   fmt::format("--source {}: this sequence is made of files and has no source node", options.source[0]));
     return open_sequence(sequence, roles, missing_from_name(options.missing).value(), diagnostics_);
   }
-  auto instance = source_instance(*sequence.source, options.source);
+  const auto parameters = source_parameters(options.source, diagnostics_);
+  auto instance = source_instance(*sequence.source, {parameters, ""}, registry_, locations_.graphs, diagnostics_);
   if (!instance || !diagnostics_.ok()) return nullptr;
   return std::make_unique<NodeSource>(std::move(*instance), sequence.frames, sequence.cuts, threads, cancel);
 }

@@ -60,8 +60,6 @@ class Commander {
 
  private:
   std::optional<std::string> sequence_path(const SequenceOptions&);
-  const NodeType* source_type(const SourceNode&);
-  std::optional<Instance> source_instance(const SourceNode&, const std::vector<std::string>& edits);
 
   Locations locations_;
   Registry registry_;
@@ -76,5 +74,6 @@ void add_metrics(CLI::App&, int& exit);
 void add_graph(CLI::App&, int& exit);
 void add_plan(CLI::App&, int& exit);
 void add_bench(CLI::App&, int& exit);
+void add_ablate(CLI::App&, int& exit);
 
 }  // namespace quell

@@ -137,12 +137,15 @@ class Run {
 
   void filter(std::int64_t frame) {
     node_times_.assign(graph_.nodes.size(), 0);
+    node_busy_.assign(graph_.nodes.size(), 0);
     const double wall = now(CLOCK_MONOTONIC), cpu = now(CLOCK_PROCESS_CPUTIME_ID);
     {
       const Trace::Span span(options_.trace, {"frame", "graph", frame}, Trace::kGraph);
       session_->filter(frame, node_times_);
     }
-    const FrameTimes times{frame, now(CLOCK_MONOTONIC) - wall, now(CLOCK_PROCESS_CPUTIME_ID) - cpu, node_times_};
+    for (std::size_t n = 0; n < node_busy_.size(); ++n) node_busy_[n] = session_->busy(n);
+    const FrameTimes times{frame, now(CLOCK_MONOTONIC) - wall, now(CLOCK_PROCESS_CPUTIME_ID) - cpu, node_times_,
+                           node_busy_};
     report_.filter_wall += times.wall;
     for (std::size_t n = 0; n < node_times_.size(); ++n) report_.nodes[n].wall += node_times_[n];
     if (options_.frame_times) options_.frame_times(times);
@@ -154,7 +157,7 @@ class Run {
   const RunOptions& options_;
   Workers& workers_;
   std::vector<std::string> roles_;
-  std::vector<double> node_times_;  // of the frame being filtered
+  std::vector<double> node_times_, node_busy_;  // of the frame being filtered
   JobTime reading_, writing_;
   RunReport report_;
   std::unique_ptr<Session> session_;

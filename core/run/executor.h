@@ -35,6 +35,7 @@ struct FrameTimes {
   std::int64_t frame;
   double wall, cpu;               // `cpu` is the process's, with what overlapped
   std::span<const double> nodes;  // wall, in order; 0 for weight nodes, which run inside of others
+  std::span<const double> busy;   // the same, summed over the threads that worked on each
 };
 
 struct RunOptions {

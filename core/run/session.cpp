@@ -133,6 +133,12 @@ void Session::filter(std::int64_t frame, std::span<double> times) {
   }
 }
 
+double Session::busy(std::size_t node) const {
+  double sum = 0;
+  for (const auto& band : bands_) sum += band.seconds[node];
+  return sum;
+}
+
 void Session::advance() { ++ordinal_, ++age_; }
 
 void Session::forget() {

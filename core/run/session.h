@@ -24,6 +24,8 @@ class Session {
   std::vector<quell_image> inputs(int ahead) const;
   // Filters the current frame. Its inputs have been filled. Gives the wall time of each node, seconds.
   void filter(std::int64_t frame, std::span<double> times);
+  // What all threads together spent on a node when the current frame was filtered, seconds.
+  double busy(std::size_t node) const;
   // Images of the graph's outputs for the current frame.
   std::vector<quell_image> outputs() const;
   // On to the next frame.
