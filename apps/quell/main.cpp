@@ -80,6 +80,7 @@ int run(int argc, char** argv) {
   quell::add_graph(app, exit);
   quell::add_plan(app, exit);
   quell::add_bench(app, exit);
+  quell::add_ablate(app, exit);
 
   const auto args = with_help_as_option({argv + 1, argv + argc});
   std::vector<std::string> commands;

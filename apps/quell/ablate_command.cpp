@@ -1,0 +1,172 @@
+// quell ablate: a study, to results, tables and a report.
+#include "apps/quell/command.h"
+#include "apps/quell/interrupt.h"
+#include "apps/quell/options.h"
+#include "apps/quell/progress.h"
+
+#include "core/lab/ablation.h"
+#include "core/lab/study_report.h"
+#include "core/lab/tables.h"
+#include "core/sequence/temporary_file.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+
+namespace quell {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct AblateArguments {
+  PluginOptions plugins;
+  std::string study, output = "ablation", references, progress = "auto";
+  bool resume = false, restart = false, images = false, maps = false, quiet = false, check = false;
+  int threads = 0;
+  double max_memory = 0;  // GiB
+  SimdOption simd;
+
+  ProgressStyle style() const {
+    if (quiet) return ProgressStyle::none;
+    if (progress == "json") return ProgressStyle::json;
+    return progress == "none" ? ProgressStyle::none : ProgressStyle::automatic;
+  }
+};
+
+void write_text(const fs::path& path, const std::string& text) {
+  TemporaryFile file(path.string());
+  file.write(text.data(), text.size());
+  file.commit();
+}
+
+// What an earlier run left is gone on with, or goes, but only when that was asked for.
+void look_at_journal(const AblateArguments& a) {
+  const fs::path journal = fs::path(a.output) / "journal";
+  std::error_code error;
+  if (a.resume || !fs::exists(journal, error)) return;
+  if (!a.restart)
+    throw Error(Exit::usage,
+                fmt::format("{} holds the work of an earlier run\n  --resume goes on with it: what has not "
+                            "changed is not computed again; --restart begins anew",
+                            a.output));
+  fs::remove_all(journal, error);
+  if (error) throw Error(Exit::resources, fmt::format("{}: {}", journal.string(), error.message()));
+}
+
+void print_saving(const Ablation& ablation) {
+  if (ablation.alone <= 0) return;
+  fmt::print(stderr, "{} nodes of {}, {:.0f} % of the work of separate runs\n", ablation.merged_nodes,
+             ablation.all_nodes, 100 * ablation.spent / ablation.alone);
+}
+
+int run(const AblateArguments& a) {
+  const auto& cancel = watch_interrupts();
+  a.simd.apply();
+  Commander commander(a.plugins);
+  const auto study = load_study({a.study, commander.locations().graphs}, commander.diagnostics());
+  if (!study) return commander.report();
+  const fs::path folder = a.output;
+  Laboratory lab{commander.registry(),
+                 commander.diagnostics(),
+                 commander.locations().graphs,
+                 a.references.empty() ? folder / "references" : fs::path(a.references),
+                 a.threads,
+                 &cancel};
+  const auto trials = load_trials(*study, a.maps, lab);
+  const int code = commander.report();
+  if (!trials || code) return code ? code : int(Exit::usage);
+  if (a.check) return 0;
+
+  look_at_journal(a);
+  check_writable((folder / "results.json").string());
+  AblationOptions options;
+  options.folder = folder;
+  options.run.threads = a.threads;
+  options.run.max_memory = std::size_t(a.max_memory * 1024 * 1024 * 1024);
+  options.run.cancel = &cancel;
+  options.images = a.images ? WrittenImages::all : WrittenImages::few;
+  options.version = QUELL_VERSION;
+  options.simd = simd_in_use();
+  options.metadata = {{"Software", "quell " QUELL_VERSION}, {"quell:study", study->name}};
+  options.say = [&](const std::string& line) {
+    if (!a.quiet) fmt::print(stderr, "{}\n", line);
+  };
+  write_variants(*study, trials->front(), lab, folder / "variants");
+  Ablation ablation;
+  try {
+    ProgressPrinter progress(a.style());
+    options.progress = [&](const Progress& p) { progress(p); };
+    ablation = run_study(*study, *trials, lab, options);
+  } catch (const Error& e) {
+    if (e.exit() != Exit::interrupted) throw;
+    throw Error(Exit::interrupted,
+                fmt::format("interrupted; quell ablate {} -o {} --resume goes on", a.study, a.output));
+  }
+  std::vector<double> cost;
+  for (const auto& times : ablation.times) cost.push_back(times.own * 1e3);
+  const auto timings = timings_json(ablation, a.threads);
+  write_text(folder / "timings.json", timings);
+  write_text(folder / "results.csv", results_csv(ablation.results));
+  write_text(folder / "table.md", table_markdown(ablation.results, cost));
+  write_text(folder / "table.tex", table_latex(ablation.results, cost));
+  write_text(folder / "results.json", results_json(ablation.results));
+  write_report_html((folder / "report.html").string(),
+                    study_report(*study, trials->front(), ablation.results, timings, folder));
+  if (!a.quiet) {
+    print_saving(ablation);
+    fmt::print(stderr, "{}\n{}\n", (folder / "table.md").string(), (folder / "report.html").string());
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_ablate(CLI::App& app, int& exit) {
+  auto* sub = app.add_subcommand("ablate", "Runs a study: variants of a graph on sequences, judged by metrics.");
+  auto a = std::make_shared<AblateArguments>();
+  sub->add_option("study", a->study, "A study file, or the name of an installed study such as svgf.")
+      ->required()
+      ->type_name("STUDY");
+  sub->add_option(
+         "-o,--output", a->output,
+         "Folder for results.json, results.csv, timings.json, table.md, table.tex, report.html, images and variants.")
+      ->type_name("DIR")
+      ->capture_default_str();
+  sub->add_flag("--resume", a->resume,
+                "Goes on with what the folder holds: only what is missing, or has changed, is computed.");
+  sub->add_flag("--restart", a->restart, "Begins anew in a folder that holds the work of an earlier run.");
+  sub->add_flag("--check", a->check, "Checks the study, its graphs, metrics and sequences, and runs nothing.");
+  sub->add_flag(
+      "--images", a->images,
+      "Writes all frames of all variants, in place of the first behind the warm-up, a middle one and the last.");
+  sub->add_flag("--maps", a->maps, "Writes the error maps of metrics for the same frames.");
+  sub->add_option("--references", a->references,
+                  "Folder where references are kept that a source node makes; runs may share it. Default: "
+                  "DIR/references.")
+      ->type_name("DIR");
+  sub->add_option("--threads", a->threads, "Threads; 0: every core that affinity and quotas grant.")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  sub->add_option("--max-memory", a->max_memory,
+                  "Of images, GiB; 0: no limit. Runs variants in groups where all at once would take more.")
+      ->check(CLI::Range(0.0, 1e6))
+      ->group("Tuning");
+  a->simd.add_to(*sub);
+  sub->add_option("--progress", a->progress,
+                  "On stderr: a line that renews itself where that is a terminal (auto), a JSON object a frame, or "
+                  "nothing.")
+      ->check(one_of({"auto", "json", "none"}))
+      ->type_name("")
+      ->capture_default_str();
+  sub->add_flag("--quiet", a->quiet, "Prints errors and warnings only.");
+  a->plugins.add_to(*sub);
+  sub->footer(
+      "Examples:\n"
+      "  quell ablate svgf -o svgf-study\n"
+      "  quell ablate my/study.json -o out --resume --images");
+  sub->callback([a, &exit] { exit = run(*a); });
+}
+
+}  // namespace quell

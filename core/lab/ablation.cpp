@@ -1,0 +1,295 @@
+// One sequence and seed after the other; of each, all variants that the journal lacks.
+#include "core/lab/ablation.h"
+
+#include "core/graph/write.h"
+#include "core/lab/digest.h"
+#include "core/lab/edits.h"
+#include "core/report/error.h"
+#include "core/run/memory_limit.h"
+#include "core/sequence/frame_range.h"
+#include "core/sequence/temporary_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <numeric>
+
+namespace quell {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string seed_name(const Study& study, std::size_t seed) {
+  return study.seeds ? std::to_string(study.seeds->values[seed]) : "own";
+}
+
+class StudyRun {
+ public:
+  StudyRun(const Study& study, const std::vector<Trial>& trials, Laboratory& lab, const AblationOptions& options)
+      : study_(study), trials_(trials), lab_(lab), options_(options) {}
+
+  Ablation run() {
+    describe();
+    for (std::size_t s = 0; s < trials_.size(); ++s) total_ += seeds() * trials_[s].sequence().frames.size();
+    for (std::size_t s = 0; s < trials_.size(); ++s) {
+      out_.results.numbers.emplace_back();
+      for (std::size_t seed = 0; seed < seeds(); ++seed) run_one(s, seed);
+    }
+    double frames = 0;
+    for (const auto& trial : trials_) frames += double(seeds() * trial.sequence().frames.size());
+    for (auto& times : out_.times) times.own /= frames, times.judged /= frames;
+    return std::move(out_);
+  }
+
+ private:
+  std::size_t seeds() const { return study_.seeds ? study_.seeds->values.size() : 1; }
+
+  void describe() {
+    auto& r = out_.results;
+    r.name = study_.name, r.about = study_.about, r.version = options_.version, r.simd = options_.simd;
+    r.warm_up = study_.warm_up;
+    if (study_.seeds) r.seeds = study_.seeds->values;
+    for (const auto& m : trials_[0].metrics())
+      r.metrics.push_back({m.name, m.title, m.key.unit, m.key.higher_is_better, m.key.perfect});
+    const auto own = own_nodes();
+    for (std::size_t v = 0; v < study_.variants.size(); ++v) {
+      const auto& declared = study_.variants[v];
+      const auto& graph = trials_[0].variants()[v];
+      r.variants.push_back({declared.name, declared.about, edits_text(declared.edits), fingerprint(graph.plain),
+                            run_command(study_, declared), int(graph.plain.nodes.size()), own[v], declared.baseline});
+    }
+    out_.times.resize(study_.variants.size());
+  }
+
+  // Nodes of each variant that no other shares; and how many there are in all.
+  std::vector<int> own_nodes() {
+    std::vector<std::size_t> all(study_.variants.size());
+    std::iota(all.begin(), all.end(), std::size_t(0));
+    const Group group(study_, trials_[0], all, false);
+    out_.merged_nodes = group.graph().nodes.size();
+    for (const auto& variant : trials_[0].variants()) out_.all_nodes += variant.graph.nodes.size();
+    return group.unshared();
+  }
+
+  // ---- One sequence with one seed ----
+
+  StudyImages images_of(std::size_t s) const {
+    const auto& frames = trials_[s].sequence().frames;
+    StudyImages images{options_.folder / "images" / study_.sequences[s].name, {}};
+    if (options_.images == WrittenImages::all) {
+      images.frames.insert(frames.begin(), frames.end());
+    } else {
+      const auto first = std::min(std::size_t(study_.warm_up), frames.size() - 1);
+      for (const auto i : {first, first + (frames.size() - 1 - first) / 2, frames.size() - 1})
+        images.frames.insert(frames[i]);
+    }
+    return images;
+  }
+
+  // Everything that decides the numbers of a variant.
+  std::string key_of(std::size_t s, std::size_t seed, std::size_t variant) const {
+    const auto& judged = trials_[s].variants()[variant];
+    std::string text =
+        fmt::format("quell {} {}\n{}", options_.version, options_.simd, trials_[s].identity(study_.seeds, seed));
+    for (const auto& metric : trials_[s].metrics()) text += fmt::format("metric {}\n", metric.name);
+    return digest(text + fingerprint_text(judged.graph));
+  }
+
+  // Images of one variant, and of what all variants see, that are listed and have gone.
+  bool images_there(const Trial& trial, const StudyImages& images, std::size_t variant) const {
+    std::vector<ResultImage> listed;
+    list_images(trial, images, 0, listed);
+    return std::ranges::all_of(listed, [&](const ResultImage& image) {
+      return (image.variant && *image.variant != variant) || fs::exists(options_.folder / image.file);
+    });
+  }
+
+  void run_one(std::size_t s, std::size_t seed) {
+    const auto& trial = trials_[s];
+    const auto count = study_.variants.size();
+    const Journal journal(options_.folder / "journal" / study_.sequences[s].name / seed_name(study_, seed));
+    const auto images = images_of(s);
+    std::vector<std::string> keys;
+    for (std::size_t v = 0; v < count; ++v) keys.push_back(key_of(s, seed, v));
+    const auto entry = [&](std::size_t v) {
+      auto found = journal.finished(study_.variants[v].name, keys[v]);
+      return found && (seed > 0 || images_there(trial, images, v)) ? std::move(found) : std::nullopt;
+    };
+
+    std::vector<std::size_t> pending;
+    for (std::size_t v = 0; v < count; ++v)
+      if (!entry(v)) pending.push_back(v);
+    const auto frames = trial.sequence().frames.size();
+    const auto started = part_of(journal, keys);
+    auto source = open(trial, seed);
+    if (s == out_.results.sequences.size()) add_sequence(trial, *source, images);
+    if (pending.empty()) total_ -= frames;
+    bool first = true;
+    const auto run_group_of = [&](const std::vector<std::size_t>& variants, JournalPart part) {
+      if (!std::exchange(first, false)) total_ += frames;
+      const Group group(study_, trial, variants, seed == 0);
+      GroupOptions options{options_.run, seed == 0 ? &images : nullptr, options_.metadata, {}};
+      options.run.overlap = false;  // so that times are those of the nodes alone
+      total_ -= part.entries.front().numbers.size();
+      options.done = [&](std::int64_t frame) { options_.progress({frame, ++done_, total_}); };
+      run_group(group, *source, trial, std::move(part), journal, options);
+    };
+    if (started) {
+      std::vector<std::size_t> variants;
+      for (const auto& e : started->entries)
+        variants.push_back(
+            std::size_t(std::ranges::find(study_.variants, e.variant, &StudyVariant::name) - study_.variants.begin()));
+      const auto at = started->entries.front().numbers.size();
+      if (at < frames)
+        options_.say(fmt::format("{}: going on with frame {}", study_.sequences[s].name, trial.sequence().frames[at]));
+      run_group_of(variants, *started);
+      std::erase_if(pending, [&](std::size_t v) { return std::ranges::find(variants, v) != variants.end(); });
+    }
+    for (const auto& variants : groups(trial, pending, *source, seed == 0)) {
+      JournalPart part;
+      for (const auto v : variants) part.entries.push_back({study_.variants[v].name, keys[v], {}, 0, 0, 0});
+      run_group_of(variants, std::move(part));
+    }
+    collect(s, journal, keys);
+  }
+
+  // A merged run that was ended before its end, if its variants are still what they were.
+  std::optional<JournalPart> part_of(const Journal& journal, const std::vector<std::string>& keys) const {
+    auto part = journal.part();
+    if (!part || part->entries.empty()) return std::nullopt;
+    for (const auto& e : part->entries) {
+      const auto it = std::ranges::find(study_.variants, e.variant, &StudyVariant::name);
+      if (it == study_.variants.end() || keys[std::size_t(it - study_.variants.begin())] != e.key) return std::nullopt;
+      if (e.numbers.size() != part->entries.front().numbers.size()) return std::nullopt;
+    }
+    return part;
+  }
+
+  std::unique_ptr<FrameSource> open(const Trial& trial, std::size_t seed) {
+    std::set<std::string> roles{"color"};
+    for (const auto& variant : trial.variants())
+      for (const auto& input : variant.graph.inputs) roles.insert(input.name);
+    if (!trial.roles().contains("color")) roles.erase("color");
+    auto source = trial.open({roles.begin(), roles.end()}, study_.seeds, seed, lab_);
+    if (!source || !lab_.diagnostics.ok()) throw Error(lab_.diagnostics.exit(), lab_.diagnostics.format());
+    return source;
+  }
+
+  void add_sequence(const Trial& trial, FrameSource& source, const StudyImages& images) {
+    const auto s = out_.results.sequences.size();
+    const auto& declared = trial.declared();
+    const auto& graph = trial.variants()[0].graph;
+    const std::string role = trial.roles().contains("color") ? "color" : graph.inputs[0].name;
+    const auto shape = source.shapes(source.frames()[0], std::span(&role, 1))[0];
+    out_.results.sequences.push_back({declared.name, declared.written, shape.width, shape.height, source.frames()});
+    list_images(trial, images, s, out_.results.images);
+  }
+
+  void list_images(const Trial& trial, const StudyImages& images, std::size_t s, std::vector<ResultImage>& all) const {
+    const auto relative = [&](const std::string& file) { return fs::path(file).lexically_relative(options_.folder); };
+    for (const auto frame : trial.sequence().frames) {
+      if (!images.frames.contains(frame)) continue;
+      if (trial.roles().contains("color")) all.push_back({"input", {}, s, frame, {}, relative(images.input(frame))});
+      if (trial.reference_frames().contains(frame))
+        all.push_back({"reference", {}, s, frame, {}, relative(images.reference(frame))});
+      for (std::size_t v = 0; v < study_.variants.size(); ++v) {
+        const auto& name = study_.variants[v].name;
+        all.push_back({"output", v, s, frame, {}, relative(images.output(name, frame))});
+        for (std::size_t m = 0; m < trial.metrics().size(); ++m)
+          if (trial.variants()[v].metrics[m].map >= 0)
+            all.push_back({"map", v, s, frame, m, relative(images.map(trial.metrics()[m].name, name, frame))});
+      }
+    }
+  }
+
+  // All together where memory suffices, else halves of them, and so on.
+  std::vector<std::vector<std::size_t>> groups(const Trial& trial, const std::vector<std::size_t>& variants,
+                                               FrameSource& source, bool images) {
+    std::vector<std::vector<std::size_t>> all;
+    if (!variants.empty()) split(trial, variants, source, images, all);
+    if (all.size() > 1)
+      options_.say(fmt::format("{}: {} variants in {} groups, for --max-memory has no room for all at once",
+                               trial.declared().name, variants.size(), all.size()));
+    return all;
+  }
+
+  void split(const Trial& trial, const std::vector<std::size_t>& variants, FrameSource& source, bool images,
+             std::vector<std::vector<std::size_t>>& all) {
+    if (options_.run.max_memory && variants.size() > 1) {
+      const Group group(study_, trial, variants, images);
+      const auto shapes = source.shapes(source.frames()[0], group.roles());
+      if (Plan(group.graph(), shapes, {false, false}).bytes() > options_.run.max_memory) {
+        const auto middle = variants.begin() + std::ptrdiff_t(variants.size() / 2);
+        split(trial, {variants.begin(), middle}, source, images, all);
+        split(trial, {middle, variants.end()}, source, images, all);
+        return;
+      }
+    }
+    all.push_back(variants);
+  }
+
+  void collect(std::size_t s, const Journal& journal, const std::vector<std::string>& keys) {
+    auto& of_seed = out_.results.numbers[s].emplace_back();
+    for (std::size_t v = 0; v < study_.variants.size(); ++v) {
+      auto entry = journal.finished(study_.variants[v].name, keys[v]);
+      if (!entry || entry->numbers.size() != trials_[s].sequence().frames.size())
+        throw Error(Exit::resources, fmt::format("the journal in {} lost variant '{}'", options_.folder.string(),
+                                                 study_.variants[v].name));
+      out_.times[v].own += entry->own_seconds, out_.times[v].judged += entry->judged_seconds;
+      out_.alone += entry->own_seconds + entry->judged_seconds;
+      out_.spent += entry->shared_seconds;
+      of_seed.push_back(std::move(entry->numbers));
+    }
+  }
+
+  const Study& study_;
+  const std::vector<Trial>& trials_;
+  Laboratory& lab_;
+  const AblationOptions& options_;
+  Ablation out_;
+  std::size_t done_ = 0, total_ = 0;  // frames of this process
+};
+
+}  // namespace
+
+std::optional<std::vector<Trial>> load_trials(const Study& study, bool maps, Laboratory& lab) {
+  std::vector<Trial> trials;
+  for (const auto& sequence : study.sequences) {
+    auto trial = Trial::load(study, sequence, maps, lab);
+    if (trial) trials.push_back(std::move(*trial));
+  }
+  if (trials.size() != study.sequences.size()) return std::nullopt;
+  return trials;
+}
+
+Ablation run_study(const Study& study, const std::vector<Trial>& trials, Laboratory& lab,
+                   const AblationOptions& options) {
+  return StudyRun(study, trials, lab, options).run();
+}
+
+void write_variants(const Study& study, const Trial& trial, const Laboratory& lab, const fs::path& folder) {
+  for (std::size_t v = 0; v < study.variants.size(); ++v) {
+    TemporaryFile file((folder / (study.variants[v].name + ".json")).string());
+    const auto text = write_graph(trial.variants()[v].plain, lab.graphs).text;
+    file.write(text.data(), text.size());
+    file.commit();
+  }
+}
+
+std::string timings_json(const Ablation& a, int threads) {
+  nlohmann::ordered_json j = {{"quell_timings", 1}, {"simd", a.results.simd}, {"threads", threads}};
+  auto& variants = j["variants"] = nlohmann::ordered_json::array();
+  for (std::size_t v = 0; v < a.times.size(); ++v)
+    variants.push_back({{"name", a.results.variants[v].name},
+                        {"cost_ms", a.times[v].own * 1e3},
+                        {"metrics_ms", a.times[v].judged * 1e3}});
+  j["saving"] = {{"nodes", a.merged_nodes},
+                 {"nodes_of_separate_runs", a.all_nodes},
+                 {"seconds", a.spent},
+                 {"seconds_of_separate_runs", a.alone}};
+  return j.dump(2) + "\n";
+}
+
+}  // namespace quell

@@ -1,0 +1,42 @@
+// A source whose images are kept on disk.
+#include "core/lab/kept_source.h"
+
+#include "core/sequence/image_file.h"
+#include "core/sequence/image_writer.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace quell {
+
+KeptSource::KeptSource(std::unique_ptr<FrameSource> source, std::string role, std::filesystem::path folder)
+    : source_(std::move(source)), role_(std::move(role)), folder_(std::move(folder)) {}
+
+bool KeptSource::read_kept(const std::string& path, const quell_image& into) const {
+  if (!std::filesystem::exists(path)) return false;
+  ImageFile file(path);
+  const auto names = channel_names(roles().at(role_), into.channels);
+  std::vector<ChannelRead> reads;
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    const int channel = file.find(names[c]);
+    if (channel < 0) return false;
+    const auto size = file.size(channel);
+    if (size.width != into.width || size.height != into.height) return false;
+    reads.push_back({channel, into.plane[c]});
+  }
+  file.read(reads, into.pitch);
+  return true;
+}
+
+void KeptSource::read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) {
+  if (roles.size() != 1 || roles[0] != role_) return source_->read(frame, roles, into);
+  const auto path = (folder_ / fmt::format("frame.{:04}.exr", frame)).string();
+  if (read_kept(path, into[0])) return;
+  source_->read(frame, roles, into);
+  WriteOptions options;
+  options.half = false;
+  write_image(path, into[0], this->roles().at(role_), options);
+}
+
+}  // namespace quell

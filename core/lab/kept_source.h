@@ -1,0 +1,36 @@
+// A source whose images are kept on disk: what takes minutes to make is made once.
+#pragma once
+
+#include "core/sequence/frame_source.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace quell {
+
+// Gives one role of another source, bit for bit, from 32-bit files in a folder, where they are; else makes and writes
+// them. A file is never half written, so a run that was killed leaves nothing wrong behind.
+class KeptSource : public FrameSource {
+ public:
+  KeptSource(std::unique_ptr<FrameSource> source, std::string role, std::filesystem::path folder);
+
+  const std::vector<std::int64_t>& frames() const override { return source_->frames(); }
+  bool cut_before(std::int64_t frame) const override { return source_->cut_before(frame); }
+  bool declared_cut(std::int64_t frame) const override { return source_->declared_cut(frame); }
+  const std::map<std::string, int>& roles() const override { return source_->roles(); }
+  std::vector<quell_shape> shapes(std::int64_t frame, std::span<const std::string> roles) override {
+    return source_->shapes(frame, roles);
+  }
+  void read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) override;
+  std::map<std::string, Repairs> repairs() const override { return source_->repairs(); }
+
+ private:
+  bool read_kept(const std::string& path, const quell_image& into) const;
+
+  std::unique_ptr<FrameSource> source_;
+  std::string role_;
+  std::filesystem::path folder_;
+};
+
+}  // namespace quell

@@ -1,0 +1,94 @@
+// A study on one of its sequences: every graph and metric loaded for what that sequence provides.
+#pragma once
+
+#include "core/lab/metric.h"
+#include "core/lab/study.h"
+#include "core/sequence/frame_source.h"
+#include "core/sequence/sequence.h"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace quell {
+
+// What variants are judged by: the whole of a reference, or two halves that know nothing of each other.
+inline constexpr std::string_view kReference = "reference";
+inline constexpr std::string_view kReferenceHalves[] = {"reference_a", "reference_b"};
+
+inline bool is_reference(std::string_view role) {
+  return role == kReference || role == kReferenceHalves[0] || role == kReferenceHalves[1];
+}
+
+// What a study is run with.
+struct Laboratory {
+  Registry& registry;
+  Diagnostics& diagnostics;
+  std::filesystem::path graphs;      // folder of installed graphs
+  std::filesystem::path references;  // folder where references that a node makes are kept; "" for none
+  int threads = 0;                   // as RunOptions has it
+  const std::atomic<bool>* cancel = nullptr;
+};
+
+// A variant with its metrics attached.
+struct JudgedGraph {
+  struct Outputs {
+    int value, pixels, map;  // of a metric; -1: it has none
+  };
+
+  Graph plain;                   // the variant itself
+  Graph graph;                   // the same with its metrics, whose nodes and outputs stand behind
+  int judged;                    // the output that is
+  std::vector<Outputs> metrics;  // in the study's order
+};
+
+class Trial {
+ public:
+  // What is wrong goes to the diagnostics, and nothing is returned then. `maps`: metrics give their maps too.
+  static std::optional<Trial> load(const Study&, const StudySequence&, bool maps, Laboratory&);
+
+  const StudySequence& declared() const { return *declared_; }
+  const Sequence& sequence() const { return sequence_; }
+  const std::vector<Metric>& metrics() const { return metrics_; }
+  const std::vector<JudgedGraph>& variants() const { return variants_; }
+  const std::map<std::string, int>& roles() const { return roles_; }
+  // Frames that have a reference.
+  const std::set<std::int64_t>& reference_frames() const { return reference_frames_; }
+
+  // The frames for what these roles name; `seed` in place of the sequence's own. Throws Error, or leaves what is wrong
+  // with the diagnostics and gives nothing.
+  std::unique_ptr<FrameSource> open(const std::vector<std::string>& roles, const std::optional<StudySeeds>& seeds,
+                                    std::size_t seed, Laboratory&) const;
+  // All that decides what those frames hold, as text: nodes with versions, parameters and the files that they name;
+  // of files, names, sizes and times of change.
+  std::string identity(const std::optional<StudySeeds>& seeds, std::size_t seed) const;
+
+ private:
+  Trial(const Study& study, const StudySequence& declared) : study_(&study), declared_(&declared) {}
+  bool load_frames(Laboratory&);
+  void look_for_reference();
+  bool load_metrics(Laboratory&);
+  bool load_variants(bool maps, Laboratory&);
+  std::optional<JudgedGraph> judged(const StudyVariant&, bool maps, Laboratory&) const;
+  Instance with_seed(const std::optional<StudySeeds>& seeds, std::size_t seed) const;
+
+  const Study* study_;
+  const StudySequence* declared_;
+  Sequence sequence_;
+  std::optional<Instance> source_;
+  std::map<std::string, Instance> reference_nodes_;  // by role
+  std::map<std::string, int> roles_;                 // of the input
+  std::set<std::string> references_;                 // roles that can be had, the mean of halves among them
+  std::set<std::int64_t> reference_frames_;
+  std::vector<Metric> metrics_;
+  std::vector<JudgedGraph> variants_;
+};
+
+}  // namespace quell
