@@ -51,7 +51,8 @@ void require_json(const char* what, const std::string& text) {
   if (!json::accept(text)) throw std::invalid_argument(fmt::format("the text of {} is no JSON", what));
 }
 
-// What an error map's colours should span: all but the highest hundredth, so that single pixels do not darken the rest.
+// What an error map's colours should span: all but the lowest and highest hundredth, so that single pixels do not
+// darken the rest.
 struct Span {
   float low, high;
 };
@@ -62,9 +63,12 @@ Span span_of(const HalfImage& image) {
   for (const auto bits : image.halves)
     if (const float value = glm::unpackHalf1x16(bits); std::isfinite(value)) values.push_back(value);
   if (values.empty()) return {0, 0};
-  const auto high = values.begin() + std::ptrdiff_t(double(values.size() - 1) * 0.99);
-  std::nth_element(values.begin(), high, values.end());
-  return {*std::min_element(values.begin(), values.end()), *high};
+  const auto at = [&](double share) {
+    const auto place = values.begin() + std::ptrdiff_t(double(values.size() - 1) * share);
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+  };
+  return {at(0.01), at(0.99)};
 }
 
 class Page {

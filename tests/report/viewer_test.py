@@ -97,7 +97,8 @@ class Decoding(ViewerTest):
             self.take(sequence)
             self.choose("images", "Show", "relmse")
             maps = [m for (s, q, _), m in self.expected.images.items() if s.startswith("map:") and q == sequence]
-            high = max(sorted(m.values)[int((len(m.values) - 1) * 0.99)] for m in maps)
+            # The middle of what all but a hundredth of each map keep below.
+            high = sorted(sorted(m.values)[int((len(m.values) - 1) * 0.99)] for m in maps)[(len(maps) - 1) // 2]
             for i, frame in enumerate(known["frames"]):
                 self.slide("frame", i)
                 for subject, got in self.samples(*known["size"]).items():

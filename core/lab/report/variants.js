@@ -49,7 +49,7 @@ function variant_details(results, variant, place) {
       ? element('button', { type: 'button', class: 'plain', onclick: () => view.go(node) }, node)
       : element('code', {}, node));
     const line = (what, nodes) => (nodes.length
-      ? element('p', { class: 'changes' }, element('span', {}, `${what}: `), nodes.map(jump)) : null);
+      ? element('p', { class: 'changes' }, element('span', {}, `${what}:`), nodes.map(jump)) : null);
     inside.append(...[line('Marked in the graph', graph.changed), line('Not in this graph', graph.removed)].filter(Boolean),
       view.root);
     if (graph.changed.length) view.go(graph.changed[0]);

@@ -49,11 +49,14 @@ export function viewer_section(results, shown) {
   const entry = (subject) => (map() === '' ? results.picture(subject.kind, subject.variant, sequence(), '', frame())
     : results.picture('map', subject.variant, sequence(), map(), frame()));
 
-  // One scale for all variants and frames, so that colours can be compared.
+  // One scale for all variants and frames, so that colours can be compared: that of the middle map, so that a baseline
+  // far off does not leave the others black.
   function tone() {
+    const stops = Number(exposure.value);
+    if (map() === '') return new Tone(stops, 0, 1);
     const maps = results.images.filter((i) => i.kind === 'map' && i.metric === map() && i.sequence === sequence());
-    const low = Math.min(0, ...maps.map((i) => i.low)), high = Math.max(...maps.map((i) => i.high));
-    return map() === '' ? new Tone(Number(exposure.value), 0, 1) : new Tone(Number(exposure.value), low, high || 1);
+    const middle = (values) => values.toSorted((a, b) => a - b)[(values.length - 1) >> 1];
+    return new Tone(stops, Math.min(0, middle(maps.map((i) => i.low))), middle(maps.map((i) => i.high)) || 1);
   }
 
   function number_of(subject) {
@@ -138,6 +141,9 @@ export function viewer_section(results, shown) {
     }
     offer(before.select, 0);
     offer(after.select, 1);
+    if (after.select.value === before.select.value) {
+      after.select.selectedIndex = (after.select.selectedIndex + 1) % after.select.options.length;
+    }
     pick_metric.root.hidden = map() !== '';
     load();
   }
