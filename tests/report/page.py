@@ -73,10 +73,11 @@ class PageTest(unittest.TestCase):
     """One browser for a class; each test begins with a fresh page."""
 
     width, height, scheme = 1280, 900, "light"
+    place = ""  # of the report, in the folder that is tested
 
     @classmethod
     def setUpClass(cls):
-        cls.expected = Expected(os.environ["QUELL_TEST_REPORT"])
+        cls.expected = Expected(os.path.join(os.environ["QUELL_TEST_REPORT"], cls.place))
         cls.browser = Browser(cls.width, cls.height, cls.scheme)
         cls.driver = cls.browser.driver
 

@@ -40,8 +40,9 @@ function number_cell(metric, summary, statistic, base, paired) {
 function mark_best(rows, column, is_better) {
   const values = rows.map((row) => row.cells[column].value).filter((v) => v !== null);
   if (values.length < 2) return;
-  const best = values.reduce((a, b) => (is_better(b, a) ? b : a));
-  for (const row of rows) if (row.cells[column].value === best) row.cells[column].best = true;
+  const best = number_text(values.reduce((a, b) => (is_better(b, a) ? b : a)));
+  // What reads the same is equally good.
+  for (const row of rows) if (number_text(row.cells[column].value) === best) row.cells[column].best = true;
 }
 
 function metric_column(metric) {
