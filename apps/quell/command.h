@@ -75,5 +75,8 @@ void add_graph(CLI::App&, int& exit);
 void add_plan(CLI::App&, int& exit);
 void add_bench(CLI::App&, int& exit);
 void add_ablate(CLI::App&, int& exit);
+void add_compare(CLI::App&, int& exit);
+void add_test(CLI::App&, int& exit);
+void add_tune(CLI::App&, int& exit);
 
 }  // namespace quell

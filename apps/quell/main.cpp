@@ -81,6 +81,9 @@ int run(int argc, char** argv) {
   quell::add_plan(app, exit);
   quell::add_bench(app, exit);
   quell::add_ablate(app, exit);
+  quell::add_compare(app, exit);
+  quell::add_test(app, exit);
+  quell::add_tune(app, exit);
 
   const auto args = with_help_as_option({argv + 1, argv + argc});
   std::vector<std::string> commands;

@@ -78,8 +78,7 @@ int metrics(const MetricsArguments& a) {
   } else if (!a.name.empty()) {
     for (const auto& m : all) print_text(m);
   } else {
-    for (const auto& m : all)
-      fmt::print("{:<20} {:<7} {:<4} {}\n", m.name, better(m), m.key.unit, m.title);
+    for (const auto& m : all) fmt::print("{:<20} {:<7} {:<4} {}\n", m.name, better(m), m.key.unit, m.title);
   }
   return code;
 }

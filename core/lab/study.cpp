@@ -39,25 +39,31 @@ std::vector<std::string> names_in(const fs::path& folder) {
 
 class StudyParser {
  public:
-  StudyParser(const StudyRequest& request, Diagnostics& diagnostics) : request_(request), diagnostics_(diagnostics) {}
+  StudyParser(const StudyRequest& request, Diagnostics& diagnostics) : request_(request), diagnostics_(diagnostics) {
+    study_.file = request.path;
+  }
 
   std::optional<Study> parse() {
-    const std::size_t before = diagnostics_.errors();
     if (!find_file()) return std::nullopt;
     const auto json = parse_json_file(study_.file, diagnostics_);
     if (!json || !is_study(*json)) return std::nullopt;
-    check_keys(*json, "", kKeys, diagnostics_);
-    study_.name = text(*json, "name").value_or(fs::path(study_.file).stem().string());
-    study_.about = text(*json, "about").value_or("");
-    study_.output = text(*json, "output").value_or("");
-    sequences(*json);
-    metrics(*json);
-    seeds(*json);
-    warm_up(*json);
-    if (const auto graph = text(*json, "graph"))
-      study_.variants = expand_variants(*json, *graph, folder(), diagnostics_);
-    else if (!json->find("graph"))
-      error(json->position, "", "a study needs a \"graph\", of which it tries variants");
+    return parse(*json, true);
+  }
+
+  std::optional<Study> parse(const Json& json, bool needs_metrics) {
+    const std::size_t before = diagnostics_.errors();
+    check_keys(json, "", kKeys, diagnostics_);
+    study_.name = text(json, "name").value_or(fs::path(study_.file).stem().string());
+    study_.about = text(json, "about").value_or("");
+    study_.output = text(json, "output").value_or("");
+    sequences(json);
+    if (needs_metrics || json.find("metrics")) metrics(json);
+    seeds(json);
+    warm_up(json);
+    if (const auto graph = text(json, "graph"))
+      study_.variants = expand_variants(json, *graph, folder(), diagnostics_);
+    else if (!json.find("graph"))
+      error(json.position, "", "a study needs a \"graph\", of which it tries variants");
     if (diagnostics_.errors() != before) return std::nullopt;
     return std::move(study_);
   }
@@ -73,7 +79,6 @@ class StudyParser {
   }
 
   bool find_file() {
-    study_.file = request_.path;
     if (!plain_name(request_.path)) return true;
     const auto studies = request_.graphs / "studies";
     const auto names = names_in(studies);
@@ -221,6 +226,12 @@ class StudyParser {
 
 std::optional<Study> load_study(const StudyRequest& request, Diagnostics& diagnostics) {
   return StudyParser(request, diagnostics).parse();
+}
+
+std::optional<Study> parse_study(const Json& json, const std::string& file, const fs::path& graphs,
+                                 Diagnostics& diagnostics) {
+  const StudyRequest request{file, graphs};
+  return StudyParser(request, diagnostics).parse(json, false);
 }
 
 }  // namespace quell

@@ -65,4 +65,9 @@ struct StudyRequest {
 // All mistakes of the file together; what its names mean to graphs, metrics and sequences is for those to say.
 std::optional<Study> load_study(const StudyRequest&, Diagnostics&);
 
+// The same of a document that stands in another file, whose folder names are relative to: a suite, a tuning. It need
+// not say "quell_study", nor name metrics.
+std::optional<Study> parse_study(const Json&, const std::string& file, const std::filesystem::path& graphs,
+                                 Diagnostics&);
+
 }  // namespace quell

@@ -48,8 +48,8 @@ TEST(Study, SpacesRangesEvenlyOrByFactors) {
             (Names{"base", "a=0", "a=-0.5", "a=-1"}));
   // What the name says is what is set.
   const auto thirds = variants_of(R"("sweeps": { "a": { "from": 0, "to": 1, "steps": 4 } })");
-  EXPECT_EQ(thirds[2].name, "a=0.666667");
-  EXPECT_EQ(edits_text(thirds[2].edits), R"({"set":{"a":0.666667}})");
+  EXPECT_EQ(thirds[3].name, "a=0.666667");
+  EXPECT_EQ(edits_text(thirds[3].edits), R"({"set":{"a":0.666667}})");
 }
 
 TEST(Study, LeavesOutAndFeedsBack) {

@@ -1,0 +1,158 @@
+// quell compare: pictures of any tool against a reference, judged by metrics.
+#include "apps/quell/command.h"
+#include "apps/quell/comparison.h"
+#include "apps/quell/interrupt.h"
+#include "apps/quell/options.h"
+#include "apps/quell/pictures.h"
+#include "apps/quell/progress.h"
+
+#include "core/lab/results.h"
+#include "core/lab/threshold.h"
+#include "core/sequence/temporary_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace quell {
+
+namespace {
+
+struct CompareArguments {
+  PluginOptions plugins;
+  ComparisonRequest request;
+  std::vector<std::string> pictures, metrics, fail;
+  std::string json, csv, progress = "auto";
+  bool quiet = false;
+  SimdOption simd;
+
+  ProgressStyle style() const {
+    if (quiet) return ProgressStyle::none;
+    if (progress == "json") return ProgressStyle::json;
+    return progress == "none" ? ProgressStyle::none : ProgressStyle::automatic;
+  }
+};
+
+std::vector<std::string> split_names(const std::vector<std::string>& lists) {
+  std::vector<std::string> names;
+  for (const auto& list : lists)
+    for (std::size_t at = 0; at <= list.size();) {
+      const auto end = std::min(list.find(',', at), list.size());
+      if (end > at) names.push_back(list.substr(at, end - at));
+      at = end + 1;
+    }
+  return names;
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  if (path == "-") {
+    std::fputs(text.c_str(), stdout);
+    return;
+  }
+  TemporaryFile file(path);
+  file.write(text.data(), text.size());
+  file.commit();
+}
+
+// Exit::threshold when one of them is met, and says so.
+int check(const Results& results, const std::vector<Threshold>& thresholds) {
+  int code = 0;
+  const auto all = summaries(results);
+  for (const auto& t : thresholds)
+    for (const auto& s : all) {
+      if (results.metrics[s.metric].name != t.metric || s.sequence != std::optional<std::size_t>(0)) continue;
+      const auto& name = results.variants[s.variant].name;
+      if (s.summary.count == 0)
+        throw Error(Exit::input, fmt::format("--fail '{}': no frame of {} has a number of this metric", t.text, name));
+      const double number = t.of(s.summary);
+      if (!t.met_by(number)) continue;
+      fmt::print(stderr, "failed: {}: {}: the {} is {:.6g}\n", name, t.text, t.statistic, number);
+      code = int(Exit::threshold);
+    }
+  return code;
+}
+
+int compare(CompareArguments& a) {
+  const auto& cancel = watch_interrupts();
+  a.simd.apply();
+  std::vector<Threshold> thresholds;
+  for (const auto& text : a.fail) thresholds.push_back(parse_threshold(text, "--fail"));
+  a.request.pictures.clear();
+  for (const auto& text : a.pictures) a.request.pictures.push_back(parse_pictures(text));
+  a.request.metrics = split_names(a.metrics);
+  a.request.thresholds = thresholds;
+  a.request.cancel = &cancel;
+  if (!a.json.empty() && a.json != "-") check_writable(a.json);
+  if (!a.csv.empty() && a.csv != "-") check_writable(a.csv);
+
+  Commander commander(a.plugins);
+  ProgressPrinter progress(a.style());
+  const auto results = run_comparison(commander, a.request, [&](const Progress& p) { progress(p); });
+  if (const int code = commander.report(); code || !results) return code ? code : int(Exit::input);
+  if (!a.json.empty()) write_text(a.json, results_json(*results));
+  if (!a.csv.empty()) write_text(a.csv, results_csv(*results));
+  if (!a.quiet && a.json != "-" && a.csv != "-") fmt::print("{}", comparison_text(*results));
+  return check(*results, thresholds);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, int& exit) {
+  auto* sub = app.add_subcommand("compare", "Judges pictures of any tool by a reference.");
+  auto a = std::make_shared<CompareArguments>();
+  sub->add_option("pictures", a->pictures,
+                  "Files or patterns of them (color.####.exr), sequence files or built-in sequences, whose colour is "
+                  "meant; NAME=… names them in tables.")
+      ->required()
+      ->type_name("[NAME=]PICTURES…");
+  sub->add_option("--reference", a->request.reference,
+                  "What they are judged by: pictures too, or a sequence, whose reference is meant.")
+      ->type_name("PICTURES");
+  sub->add_option("--sequence", a->request.sequence,
+                  "What metrics over time and of regions read besides: motion, ids, normals. Default: the reference, "
+                  "where that is a sequence.")
+      ->type_name("SEQUENCE");
+  sub->add_option("--metric", a->metrics,
+                  "Metrics with commas between: installed ones or files. Default: relmse, psnr_pu, ssim and flip; "
+                  "psnr_unbiased where the reference has halves, and flicker where motion is known.")
+      ->type_name("NAME,…")
+      ->take_all()
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  sub->add_option("--fail", a->fail,
+                  "Ends with exit code 1 when this holds: 'flip > 0.05', 'psnr_ldr.min < 30'. Of the frames' numbers "
+                  "mean is meant, or median, p95, min, max. May be given more than once.")
+      ->type_name("CONDITION")
+      ->take_all()
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  sub->add_option("--frames", a->request.frames, "Frames to compare: 1-20, 1-10x2, 1,5,7-9. Default: all.")
+      ->type_name("RANGE");
+  sub->add_option("--root", a->request.root, "Folder that sequence files' names are relative to.")->type_name("DIR");
+  sub->add_option("--warm-up", a->request.warm_up, "Frames at the beginning that enter no mean.")
+      ->check(CLI::Range(0, 1 << 30))
+      ->capture_default_str();
+  sub->add_option("--json", a->json, "Writes all numbers as JSON; - is stdout.")->type_name("FILE");
+  sub->add_option("--csv", a->csv, "Writes a line for each number; - is stdout.")->type_name("FILE");
+  sub->add_option("--maps", a->request.maps, "Writes error images there, as EXR and for the eye as PNG.")
+      ->type_name("DIR");
+  sub->add_option("--threads", a->request.threads, "Threads; 0: every core that affinity and quotas grant.")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  a->simd.add_to(*sub);
+  sub->add_option("--progress", a->progress, "On stderr: a line (auto), a JSON object a frame, or nothing.")
+      ->check(one_of({"auto", "json", "none"}))
+      ->type_name("")
+      ->capture_default_str();
+  sub->add_flag("--quiet", a->quiet, "Prints errors, warnings and failures only.");
+  a->plugins.add_to(*sub);
+  sub->footer(
+      "Examples:\n"
+      "  quell compare denoised.png --reference truth.png --fail 'flip > 0.05'\n"
+      "  quell compare svgf=out/svgf/color.####.exr new=out/new/color.####.exr --reference room --frames 0-15\n"
+      "  quell compare a.####.exr b.####.exr --reference shot.json --metric psnr_unbiased,flicker --csv numbers.csv");
+  sub->callback([a, &exit] { exit = compare(*a); });
+}
+
+}  // namespace quell

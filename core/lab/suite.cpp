@@ -1,0 +1,182 @@
+// The keys of a suite, each checked where it stands.
+#include "core/lab/suite.h"
+
+#include "core/lab/variants.h"
+#include "core/sequence/document.h"
+#include "core/sequence/frame_range.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace quell {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::vector<std::string> kTestKeys = {"about",  "graph",    "set",     "swap", "wire",  "bypass",
+                                            "output", "sequence", "warm_up", "fail", "golden"};
+
+Json text_json(const std::string& text, TextPosition position) {
+  Json j;
+  j.kind = Json::Kind::text, j.text = text, j.position = position;
+  return j;
+}
+
+Json list_of(std::vector<Json> items, TextPosition position) {
+  Json j;
+  j.kind = Json::Kind::list, j.items = std::move(items), j.position = position;
+  return j;
+}
+
+class SuiteParser {
+ public:
+  SuiteParser(const std::string& path, const fs::path& graphs, Diagnostics& diagnostics)
+      : graphs_(graphs), diagnostics_(diagnostics) {
+    suite_.file = path;
+  }
+
+  std::optional<Suite> parse() {
+    const std::size_t before = diagnostics_.errors();
+    const auto json = parse_json_file(suite_.file, diagnostics_);
+    if (!json) return std::nullopt;
+    const Json* version = json->is(Json::Kind::object) ? json->find("quell_suite") : nullptr;
+    if (!version || !version->is(Json::Kind::integer) || version->integer != 1) {
+      error(version ? version->position : json->position, "",
+            "a suite is an object that begins with \"quell_suite\": 1");
+      return std::nullopt;
+    }
+    check_keys(*json, "", std::vector<std::string>{"quell_suite", "name", "about", "golden", "tests"}, diagnostics_);
+    suite_.name = text(*json, "name", "").value_or(fs::path(suite_.file).stem().string());
+    suite_.about = text(*json, "about", "").value_or("");
+    golden_ = folder() / text(*json, "golden", "").value_or("golden");
+    const Json* tests = member(*json, "tests", Json::Kind::object, "", diagnostics_);
+    if (!json->find("tests") || (tests && tests->members.empty()))
+      error(json->position, "tests", "a suite needs \"tests\": at least one, by name");
+    if (tests)
+      for (const auto& m : tests->members) test(m);
+    if (diagnostics_.errors() != before) return std::nullopt;
+    return std::move(suite_);
+  }
+
+ private:
+  void error(TextPosition position, std::string path, std::string text, std::vector<std::string> notes = {}) {
+    diagnostics_.error(position, std::move(path), std::move(text), std::move(notes));
+  }
+  fs::path folder() const { return fs::path(suite_.file).parent_path(); }
+  std::optional<std::string> text(const Json& json, const char* key, const std::string& path) {
+    const Json* j = member(json, key, Json::Kind::text, path, diagnostics_);
+    return j ? std::optional(j->text) : std::nullopt;
+  }
+
+  void test(const JsonMember& m) {
+    const std::string where = "tests." + m.key;
+    if (const auto why = problem_of_name(m.key); !why.empty()) return error(m.key_position, where, why);
+    if (!m.value.is(Json::Kind::object))
+      return error(m.value.position, where, fmt::format("must be an object, not {}", m.value.shown()));
+    check_keys(m.value, where, kTestKeys, diagnostics_);
+    SuiteTest t;
+    t.name = m.key, t.position = m.key_position;
+    conditions(m.value, where, t);
+    golden(m.value, where, t);
+    if (t.fail.empty() && !t.golden)
+      error(m.key_position, where, "tests nothing; it needs \"golden\" images or conditions to \"fail\" on");
+    const auto study = study_of(m.value, where, t);
+    if (!study) return;
+    t.study = *study;
+    suite_.tests.push_back(std::move(t));
+  }
+
+  void conditions(const Json& json, const std::string& where, SuiteTest& t) {
+    const Json* list = member(json, "fail", Json::Kind::list, where, diagnostics_);
+    if (!list) return;
+    for (std::size_t i = 0; i < list->items.size(); ++i) {
+      const Json& item = list->items[i];
+      const std::string path = fmt::format("{}.fail[{}]", where, i);
+      if (!item.is(Json::Kind::text)) {
+        error(item.position, path, fmt::format("must be a condition such as \"flip > 0.05\", not {}", item.shown()));
+        continue;
+      }
+      try {
+        t.fail.push_back(parse_threshold(item.text, "the condition"));
+      } catch (const Error& e) {
+        error(item.position, path, e.what());
+      }
+    }
+  }
+
+  void golden(const Json& json, const std::string& where, SuiteTest& t) {
+    const Json* j = member(json, "golden", Json::Kind::object, where, diagnostics_);
+    if (!j) return;
+    const std::string path = where + ".golden";
+    check_keys(*j, path, std::vector<std::string>{"frames", "pixel", "share", "limit"}, diagnostics_);
+    GoldenImages images;
+    images.pattern = (golden_ / (t.name + ".####.exr")).lexically_normal().string();
+    std::string problem = "must be a frame range such as \"7,15\"";
+    const auto range = text(*j, "frames", path);
+    auto frames = range ? parse_frame_range(*range, problem) : std::nullopt;
+    if (frames)
+      images.frames = std::move(*frames);
+    else
+      error(j->find("frames") ? j->find("frames")->position : j->position, path + ".frames", problem);
+    for (const auto& [key, into] : {std::pair{"pixel", &images.tolerance.pixel},
+                                    {"share", &images.tolerance.share},
+                                    {"limit", &images.tolerance.limit}}) {
+      const Json* value = j->find(key);
+      if (!value) continue;
+      *into = value->is(Json::Kind::integer) ? double(value->integer) : value->number;
+      if ((!value->is(Json::Kind::integer) && !value->is(Json::Kind::number)) || *into < 0 || *into > 1)
+        error(value->position, fmt::format("{}.{}", path, key),
+              fmt::format("must be a number from 0 to 1, not {}", value->shown()));
+    }
+    t.golden = std::move(images);
+  }
+
+  // A study of this graph alone, so that both are read by the same rules.
+  std::optional<Study> study_of(const Json& json, const std::string& where, const SuiteTest& t) {
+    Json study;
+    study.kind = Json::Kind::object, study.position = json.position;
+    const auto add = [&](const char* key, Json value) {
+      const auto position = value.position;
+      study.members.push_back({key, position, std::move(value)});
+    };
+    for (const char* key : {"graph", "output", "warm_up"})
+      if (const Json* j = json.find(key)) add(key, *j);
+    if (const Json* j = json.find("sequence"))
+      add("sequences", list_of({*j}, j->position));
+    else
+      error(json.position, where, "has no \"sequence\"");
+    std::vector<Json> metrics;
+    for (const auto& f : t.fail)
+      if (std::ranges::find(metrics, f.metric, &Json::text) == metrics.end())
+        metrics.push_back(text_json(f.metric, t.position));
+    if (!metrics.empty()) add("metrics", list_of(std::move(metrics), t.position));
+    if (!json.find("sequence")) return std::nullopt;
+    auto parsed = parse_study(study, suite_.file, graphs_, diagnostics_);
+    if (!parsed) return parsed;
+    Json edits;
+    edits.kind = Json::Kind::object, edits.position = json.position;
+    for (const char* key : {"set", "swap", "wire", "bypass"})
+      for (const auto& m : json.members)
+        if (m.key == key) edits.members.push_back(m);
+    parsed->variants.front().edits = std::move(edits);
+    parsed->variants.front().name = t.name;
+    parsed->variants.front().where = where;
+    parsed->variants.front().position = t.position;
+    return parsed;
+  }
+
+  const fs::path& graphs_;
+  Diagnostics& diagnostics_;
+  Suite suite_;
+  fs::path golden_;
+};
+
+}  // namespace
+
+std::optional<Suite> load_suite(const std::string& path, const fs::path& graphs, Diagnostics& diagnostics) {
+  return SuiteParser(path, graphs, diagnostics).parse();
+}
+
+}  // namespace quell

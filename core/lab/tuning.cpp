@@ -1,0 +1,193 @@
+// The keys of a tuning file, each checked where it stands.
+#include "core/lab/tuning.h"
+
+#include "core/lab/threshold.h"
+#include "core/sequence/document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace quell {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class TuningParser {
+ public:
+  TuningParser(const std::string& path, const fs::path& graphs, Diagnostics& diagnostics)
+      : graphs_(graphs), diagnostics_(diagnostics) {
+    tuning_.file = path;
+  }
+
+  std::optional<Tuning> parse() {
+    const std::size_t before = diagnostics_.errors();
+    const auto json = parse_json_file(tuning_.file, diagnostics_);
+    if (!json) return std::nullopt;
+    const Json* version = json->is(Json::Kind::object) ? json->find("quell_tune") : nullptr;
+    if (!version || !version->is(Json::Kind::integer) || version->integer != 1) {
+      error(version ? version->position : json->position, "",
+            "a tuning file is an object that begins with \"quell_tune\": 1");
+      return std::nullopt;
+    }
+    const std::vector<std::string> keys = {"quell_tune", "name",        "about",     "graph",      "output",   "set",
+                                           "swap",       "wire",        "bypass",    "parameters", "minimise", "train",
+                                           "held_out",   "evaluations", "tolerance", "warm_up"};
+    check_keys(*json, "", keys, diagnostics_);
+    std::ifstream file(tuning_.file);
+    std::ostringstream text_of_file;
+    text_of_file << file.rdbuf();
+    tuning_.text = text_of_file.str();
+    tuning_.name = text(*json, "name").value_or(fs::path(tuning_.file).stem().string());
+    tuning_.about = text(*json, "about").value_or("");
+    minimise(*json);
+    parameters(*json);
+    limits(*json);
+    if (auto study = study_of(*json, "train")) tuning_.training = std::move(*study);
+    if (json->find("held_out")) tuning_.held_out = study_of(*json, "held_out");
+    if (diagnostics_.errors() != before) return std::nullopt;
+    return std::move(tuning_);
+  }
+
+ private:
+  void error(TextPosition position, std::string path, std::string text, std::vector<std::string> notes = {}) {
+    diagnostics_.error(position, std::move(path), std::move(text), std::move(notes));
+  }
+  std::optional<std::string> text(const Json& json, const char* key) {
+    const Json* j = member(json, key, Json::Kind::text, "", diagnostics_);
+    return j ? std::optional(j->text) : std::nullopt;
+  }
+
+  void minimise(const Json& json) {
+    const Json* j = member(json, "minimise", Json::Kind::text, "", diagnostics_);
+    if (!json.find("minimise"))
+      error(json.position, "", R"(has no "minimise": what to make small, such as "flicker - psnr_unbiased")");
+    if (!j) return;
+    try {
+      tuning_.minimise.emplace(j->text);
+      // Each name is a metric and perhaps a statistic, by the rules of conditions.
+      for (const auto& name : tuning_.minimise->names()) parse_threshold(name + " > 0", "minimise");
+      if (tuning_.minimise->names().empty()) error(j->position, "minimise", "names no metric");
+    } catch (const Error& e) {
+      error(j->position, "minimise", e.what());
+    }
+  }
+
+  void parameters(const Json& json) {
+    const Json* all = member(json, "parameters", Json::Kind::object, "", diagnostics_);
+    if (!json.find("parameters") || (all && all->members.empty()))
+      error(json.position, "parameters",
+            R"(there are none to tune; as in "parameters": {"alpha": {"from": 0.02, "to": 0.5}})");
+    if (all)
+      for (const auto& m : all->members) parameter(m);
+  }
+
+  void parameter(const JsonMember& m) {
+    const std::string path = "parameters." + m.key;
+    if (!m.value.is(Json::Kind::object))
+      return error(m.value.position, path, fmt::format("must be an object, not {}", m.value.shown()));
+    check_keys(m.value, path, std::vector<std::string>{"from", "to", "start", "scale", "integer"}, diagnostics_);
+    TunedParameter p{m.key, {}, m.key_position};
+    const auto from = number(m.value, "from", path), to = number(m.value, "to", path);
+    for (const auto& [key, there] : {std::pair{"from", bool(from)}, {"to", bool(to)}})
+      if (!there && !m.value.find(key)) error(m.value.position, path, fmt::format("has no \"{}\"", key));
+    if (const Json* scale = member(m.value, "scale", Json::Kind::text, path, diagnostics_)) {
+      p.range.log = scale->text == "log";
+      if (scale->text != "log" && scale->text != "linear")
+        error(scale->position, path + ".scale", fmt::format("must be linear or log, not {}", scale->shown()));
+    }
+    if (const Json* integer = member(m.value, "integer", Json::Kind::boolean, path, diagnostics_))
+      p.range.integer = integer->boolean;
+    if (!from || !to) return;
+    p.range.from = *from, p.range.to = *to;
+    if (*from >= *to)
+      return error(m.value.position, path, fmt::format("its range is empty: from {} to {}", *from, *to));
+    if (p.range.log && *from <= 0)
+      return error(m.value.position, path, fmt::format("a log scale begins above 0, not at {}", *from));
+    const double middle = p.range.log ? std::sqrt(*from * *to) : (*from + *to) / 2;
+    p.range.start = number(m.value, "start", path).value_or(middle);
+    if (p.range.start < *from || p.range.start > *to)
+      error(m.value.find("start")->position, path + ".start",
+            fmt::format("{} is not between {} and {}", p.range.start, *from, *to));
+    tuning_.parameters.push_back(std::move(p));
+  }
+
+  std::optional<double> number(const Json& json, const char* key, const std::string& path) {
+    const Json* j = json.find(key);
+    if (!j) return std::nullopt;
+    if (j->is(Json::Kind::integer)) return double(j->integer);
+    if (j->is(Json::Kind::number)) return j->number;
+    error(j->position, fmt::format("{}.{}", path, key), fmt::format("must be a number, not {}", j->shown()));
+    return std::nullopt;
+  }
+
+  void limits(const Json& json) {
+    if (const Json* j = json.find("evaluations")) {
+      if (!j->is(Json::Kind::integer) || j->integer < 1 || j->integer > 100'000)
+        error(j->position, "evaluations", fmt::format("must be a number from 1 to 100000, not {}", j->shown()));
+      else
+        tuning_.evaluations = int(j->integer);
+    }
+    if (const auto tolerance = number(json, "tolerance", "")) {
+      tuning_.tolerance = *tolerance;
+      if (*tolerance < 0 || *tolerance >= 1)
+        error(json.find("tolerance")->position, "tolerance",
+              fmt::format("is a share of each range, from 0 to below 1, not {}", *tolerance));
+    }
+  }
+
+  // A study of this graph on these sequences, so that both are read by the same rules.
+  std::optional<Study> study_of(const Json& json, const char* sequences) {
+    Json study;
+    study.kind = Json::Kind::object, study.position = json.position;
+    const auto add = [&](const char* key, Json value) {
+      const auto position = value.position;
+      study.members.push_back({key, position, std::move(value)});
+    };
+    for (const char* key : {"graph", "output", "warm_up"})
+      if (const Json* j = json.find(key)) add(key, *j);
+    const Json* list = json.find(sequences);
+    if (!list) {
+      error(json.position, "", fmt::format("has no \"{}\": the sequences to tune on", sequences));
+      return std::nullopt;
+    }
+    add("sequences", *list);
+    if (!tuning_.minimise) return std::nullopt;
+    const Json* expression = json.find("minimise");
+    Json metrics;
+    metrics.kind = Json::Kind::list, metrics.position = expression->position;
+    for (const auto& name : tuning_.minimise->names()) {
+      Json metric;
+      metric.kind = Json::Kind::text, metric.text = metric_of(name), metric.position = expression->position;
+      if (std::ranges::find(metrics.items, metric.text, &Json::text) == metrics.items.end())
+        metrics.items.push_back(std::move(metric));
+    }
+    add("metrics", std::move(metrics));
+    auto parsed = parse_study(study, tuning_.file, graphs_, diagnostics_);
+    if (!parsed) return parsed;
+    Json edits;
+    edits.kind = Json::Kind::object, edits.position = json.position;
+    for (const auto& m : json.members)
+      if (m.key == "set" || m.key == "swap" || m.key == "wire" || m.key == "bypass") edits.members.push_back(m);
+    parsed->variants.front().edits = std::move(edits);
+    return parsed;
+  }
+
+  const fs::path& graphs_;
+  Diagnostics& diagnostics_;
+  Tuning tuning_;
+};
+
+}  // namespace
+
+std::string metric_of(const std::string& name) { return name.substr(0, name.find('.')); }
+
+std::optional<Tuning> load_tuning(const std::string& path, const fs::path& graphs, Diagnostics& diagnostics) {
+  return TuningParser(path, graphs, diagnostics).parse();
+}
+
+}  // namespace quell

@@ -1,0 +1,40 @@
+// A search for parameters: which of a graph's, within what ranges, to make what expression of metrics small on which
+// sequences. Parsed from its file.
+#pragma once
+
+#include "core/lab/expression.h"
+#include "core/lab/search.h"
+#include "core/lab/study.h"
+#include "core/report/diagnostics.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace quell {
+
+struct TunedParameter {
+  std::string name;  // as --set takes it: "alpha", "level0.atrous.step"
+  SearchRange range;
+  TextPosition position;
+};
+
+struct Tuning {
+  std::string file, name, about;
+  std::string text;               // of the file
+  Study training;                 // the graph and the metrics of the expression; its first variant is the graph itself
+  std::optional<Study> held_out;  // the same on sequences that the search does not see
+  std::vector<TunedParameter> parameters;
+  std::optional<Expression> minimise;
+  int evaluations = 60;
+  double tolerance = 0.01;  // of each range
+};
+
+// All mistakes of the file together; whether parameters and metrics exist is for the graph to say.
+std::optional<Tuning> load_tuning(const std::string& path, const std::filesystem::path& graphs, Diagnostics&);
+
+// The metric that a name of an expression means, without ".p95" and the like.
+std::string metric_of(const std::string& name);
+
+}  // namespace quell

@@ -1,0 +1,117 @@
+// quell tune: what it finds, that it goes on where it was stopped, and what it says of wrong files.
+#include "tests/support/quell_command.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace quell::test {
+namespace {
+
+using nlohmann::json;
+
+class Tune : public QuellCommand {
+ protected:
+  // `exposure` by 3 stops makes the frames their reference.
+  void SetUp() override {
+    for (const char* frame : {"1", "2"}) {
+      write_color(std::string("c.000") + frame + ".exr", 16, 8, 0.125f);
+      write_color(std::string("r.000") + frame + ".exr", 16, 8, 1.0f);
+    }
+    write("shot.json", R"({"quell_sequence": 1, "frames": "1-2", "inputs": {"color": {"file": "c.####.exr"}},
+                           "reference": {"file": "r.####.exr"}})");
+    write("brighten.json", R"({"quell": 1, "inputs": {"color": "radiance"}, "params": {"stops": 0.0},
+      "nodes": {"expose": {"type": "exposure", "in": {"image": "color"}, "set": {"stops": "$stops"}}},
+      "outputs": {"color": "expose"}})");
+    tuning(R"("stops": { "from": -1, "to": 7 })", "rmse.max", 40);
+  }
+  void tuning(const std::string& parameters, const std::string& minimise, int evaluations) {
+    write("tune.json", fmt::format(R"({{
+  "quell_tune": 1,
+  "name": "Brightness",
+  "graph": "brighten.json",
+  "parameters": {{ {} }},
+  "minimise": "{}",
+  "train": ["shot.json"],
+  "held_out": [{{ "path": "shot.json", "frames": "2", "name": "second" }}],
+  "evaluations": {},
+  "tolerance": 0.0001,
+  "warm_up": 0
+}})",
+                                   parameters, minimise, evaluations));
+  }
+  ProgramResult tune(std::vector<std::string> args) {
+    return quell(std::vector<std::string>{"tune", "tune.json"} + args);
+  }
+};
+
+TEST_F(Tune, FindsTheParameterAndWritesAGraphWithIt) {
+  const auto r = tune({"-o", "found"});
+  ASSERT_EQ(r.exit, 0) << r.err;
+  const auto j = json::parse(read("found/tuning.json"));
+  EXPECT_NEAR(j["best"]["stops"].get<double>(), 3, 0.01);
+  EXPECT_NEAR(j["training"]["before"]["value"].get<double>(), 0.875, 1e-6);
+  EXPECT_LT(j["training"]["after"]["value"].get<double>(), 0.01);
+  EXPECT_LT(j["held_out"]["after"]["value"].get<double>(), 0.01);
+  ASSERT_EQ(quell({"run", "found/variant.json", "shot.json", "-o", "o/x.####.exr", "--quiet"}).exit, 0);
+  EXPECT_NEAR(pixels("o/x.0001.exr").channels.at("G")[0], 1, 0.01);
+}
+
+TEST_F(Tune, GoesOnWhereItWasStopped) {
+  ASSERT_EQ(tune({"-o", "whole", "--quiet"}).exit, 0);
+  ASSERT_EQ(tune({"-o", "part", "--quiet"}).exit, 0);
+  // As if it had been killed in the middle.
+  auto journal = json::parse(read("part/journal.json"));
+  const auto steps = journal["steps"].size();
+  ASSERT_GT(steps, 6u);
+  auto& kept = journal["steps"];
+  kept.erase(kept.begin() + 5, kept.end());
+  write("part/journal.json", journal.dump());
+  std::filesystem::remove(path("part/tuning.json"));
+  EXPECT_EQ(tune({"-o", "part"}).exit, 2) << "work of an earlier run must not be lost unasked";
+  const auto r = tune({"-o", "part", "--resume"});
+  ASSERT_EQ(r.exit, 0) << r.err;
+  EXPECT_NE(r.err.find("(known)"), std::string::npos);
+  EXPECT_EQ(read("part/tuning.json"), read("whole/tuning.json"));
+  EXPECT_EQ(read("part/variant.json"), read("whole/variant.json"));
+}
+
+TEST_F(Tune, AChangedFileIsTriedAnew) {
+  ASSERT_EQ(tune({"-o", "t", "--quiet"}).exit, 0);
+  for (const char* frame : {"1", "2"}) write_color(std::string("c.000") + frame + ".exr", 16, 8, 0.25f);
+  ASSERT_EQ(tune({"-o", "t", "--quiet", "--resume"}).exit, 0);
+  EXPECT_NEAR(json::parse(read("t/tuning.json"))["best"]["stops"].get<double>(), 2, 0.01);
+}
+
+TEST_F(Tune, SaysWhatIsWrong) {
+  const auto expect = [&](const std::string& text) {
+    const auto r = tune({"-o", "t"});
+    EXPECT_EQ(r.exit, 2) << r.err;
+    EXPECT_NE(r.err.find(text), std::string::npos) << r.err;
+    EXPECT_FALSE(std::filesystem::exists(path("t/journal.json")));
+  };
+  tuning(R"("stops": { "from": 3, "to": 3 })", "rmse", 5);
+  expect("tune.json:5:28: error: parameters.stops: its range is empty: from 3 to 3");
+  tuning(R"("stops": { "from": 0, "to": 3, "scale": "log" })", "rmse", 5);
+  expect("a log scale begins above 0, not at 0");
+  tuning(R"("stops": { "from": 0, "to": 3, "start": 4 })", "rmse", 5);
+  expect("parameters.stops.start: 4 is not between 0 and 3");
+  tuning(R"("stop": { "from": 0, "to": 3 })", "rmse", 5);
+  expect("the graph has no parameter 'stop'");
+  tuning(R"("stops": { "from": 0, "to": 3 })", "rmse +", 5);
+  expect("minimise: 'rmse +': a number or a name is missing at the end");
+  tuning(R"("stops": { "from": 0, "to": 3 })", "3", 5);
+  expect("minimise: names no metric");
+  tuning(R"("stops": { "from": 0, "to": 3 })", "rmse.most", 5);
+  expect("there is no statistic 'most'");
+  tuning(R"("stops": { "from": 0, "to": 3 })", "flicker", 5);
+  expect("'flicker' reads 'motion'");
+  tuning(R"("stops": { "from": 0, "to": 3 })", "rmse", 0);
+  expect("evaluations: must be a number from 1 to 100000, not 0");
+}
+
+}  // namespace
+}  // namespace quell::test
