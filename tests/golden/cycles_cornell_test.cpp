@@ -35,7 +35,7 @@ TEST_F(CyclesQuality, DefaultsReachTheirQuality) {
 
 TEST_F(CyclesQuality, RecommendedReachesItsQuality) {
   const auto q = quality("recommended", {});
-  EXPECT_GE(q.psnr, 42.8);
+  EXPECT_GE(q.psnr, 43.0);
   EXPECT_LE(q.flicker, 1.3);
 }
 
