@@ -42,14 +42,13 @@ class Document(PageTest):
             add('img', { src: at + '/img' });
             add('script', { src: at + '/script' });
             add('script', { textContent: 'document.title = "inline"' });
-            add('iframe', { src: at + '/frame' });
             add('link', { rel: 'stylesheet', href: at + '/style' });
             try { new WebSocket(at.replace('http', 'ws')); } catch {}
             setTimeout(() => done([...refused]), 1500);""", at)
         server.shutdown()
         server.server_close()
         self.assertEqual(asked, [])
-        self.assertEqual({"connect-src", "img-src", "script-src-elem", "frame-src", "style-src-elem"} - set(refused), set())
+        self.assertEqual({"connect-src", "img-src", "script-src-elem", "style-src-elem"} - set(refused), set())
         self.assertNotEqual(self.driver.title, "inline")
         self.browser.said()
 
