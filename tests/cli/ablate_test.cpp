@@ -268,6 +268,20 @@ TEST_F(Ablate, RunsEverySequenceWithEverySeed) {
     EXPECT_TRUE(fs::exists(path("out/" + image["file"].get<std::string>()))) << image;
 }
 
+TEST_F(Ablate, FindsNothingWrongWithTheStudiesThatShip) {
+  for (const char* name : {"svgf", "svgf_parameters", "games202"}) {
+    const auto r = quell({"ablate", name, "--check"});
+    EXPECT_EQ(r.exit, 0) << r.err;
+    EXPECT_EQ(r.err, "");
+  }
+  const auto r = quell({"ablate", "svfg", "--check"});
+  EXPECT_EQ(r.exit, 2);
+  EXPECT_NE(
+      r.err.find("there is no study 'svfg'\n  installed are: games202, svgf, svgf_parameters. Did you mean 'svgf'?"),
+      std::string::npos)
+      << r.err;
+}
+
 // A reference of some frames judges those frames; what looks back needs it there as well.
 TEST_F(Ablate, LeavesOutFramesWithoutAReference) {
   for (int f = 1; f <= 5; ++f) write_color(fmt::format("shot/color_{}.exr", f), 9, 5, 0.5f);
