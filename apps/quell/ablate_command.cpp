@@ -7,6 +7,7 @@
 #include "core/lab/ablation.h"
 #include "core/lab/study_report.h"
 #include "core/lab/tables.h"
+#include "core/run/cores.h"
 #include "core/sequence/temporary_file.h"
 
 #include <fmt/format.h>
@@ -106,7 +107,7 @@ int run(const AblateArguments& a) {
   }
   std::vector<double> cost;
   for (const auto& times : ablation.times) cost.push_back(times.own * 1e3);
-  const auto timings = timings_json(ablation, a.threads);
+  const auto timings = timings_json(ablation, a.threads ? a.threads : usable_cores());
   write_text(folder / "timings.json", timings);
   write_text(folder / "results.csv", results_csv(ablation.results));
   write_text(folder / "table.md", table_markdown(ablation.results, cost));

@@ -88,13 +88,14 @@ class StudyRun {
     return images;
   }
 
-  // Everything that decides the numbers of a variant.
-  std::string key_of(std::size_t s, std::size_t seed, std::size_t variant) const {
-    const auto& judged = trials_[s].variants()[variant];
-    std::string text =
+  // Of each variant, everything that decides its numbers.
+  std::vector<std::string> keys_of(std::size_t s, std::size_t seed) const {
+    std::string common =
         fmt::format("quell {} {}\n{}", options_.version, options_.simd, trials_[s].identity(study_.seeds, seed));
-    for (const auto& metric : trials_[s].metrics()) text += fmt::format("metric {}\n", metric.name);
-    return digest(text + fingerprint_text(judged.graph));
+    for (const auto& metric : trials_[s].metrics()) common += fmt::format("metric {}\n", metric.name);
+    std::vector<std::string> keys;
+    for (const auto& variant : trials_[s].variants()) keys.push_back(digest(common + fingerprint_text(variant.graph)));
+    return keys;
   }
 
   // Images of one variant, and of what all variants see, that are listed and have gone.
@@ -111,8 +112,7 @@ class StudyRun {
     const auto count = study_.variants.size();
     const Journal journal(options_.folder / "journal" / study_.sequences[s].name / seed_name(study_, seed));
     const auto images = images_of(s);
-    std::vector<std::string> keys;
-    for (std::size_t v = 0; v < count; ++v) keys.push_back(key_of(s, seed, v));
+    const auto keys = keys_of(s, seed);
     const auto entry = [&](std::size_t v) {
       auto found = journal.finished(study_.variants[v].name, keys[v]);
       return found && (seed > 0 || images_there(trial, images, v)) ? std::move(found) : std::nullopt;
