@@ -131,11 +131,15 @@ std::optional<Sequence> Commander::load(const SequenceOptions& options) {
       throw Error(Exit::input, fmt::format("--root {}: there is no such folder", options.root));
     request.root = options.root;
   }
+  return load(std::move(request));
+}
+
+std::optional<Sequence> Commander::load(SequenceRequest request) {
   request.profiles = locations_.graphs / "profiles";
   auto sequence = load_sequence(request, diagnostics_);
-  if (sequence && sequence->source && !options.root.empty())
+  if (sequence && sequence->source && request.root)
     throw Error(Exit::usage,
-                fmt::format("--root {}: this sequence is made by a source node and names no files", options.root));
+                fmt::format("--root {}: this sequence is made by a source node and names no files", *request.root));
   // Before the graph is checked against what the source gives, or every one of its inputs would be missing.
   if (sequence && sequence->source && !source_type(*sequence->source, registry_, diagnostics_)) return std::nullopt;
   return sequence;
@@ -144,7 +148,6 @@ std::optional<Sequence> Commander::load(const SequenceOptions& options) {
 std::optional<Graph> Commander::load(const GraphOptions& options, const Sequence* sequence, GraphInfo* info) {
   GraphRequest request;
   request.graph = options.graph;
-  request.graphs = locations_.graphs;
   const auto edits = [&](Edit::Kind kind, const std::vector<std::string>& texts) {
     for (const auto& text : texts) request.edits.push_back({kind, text});
   };
@@ -153,6 +156,11 @@ std::optional<Graph> Commander::load(const GraphOptions& options, const Sequence
   edits(Edit::Kind::set, options.set);
   edits(Edit::Kind::bypass, options.bypass);
   edits(Edit::Kind::tap, options.tap);
+  return load(std::move(request), sequence, info);
+}
+
+std::optional<Graph> Commander::load(GraphRequest request, const Sequence* sequence, GraphInfo* info) {
+  request.graphs = locations_.graphs;
   if (sequence) {
     request.roles = sequence->roles();
     if (sequence->source)
@@ -160,6 +168,10 @@ std::optional<Graph> Commander::load(const GraphOptions& options, const Sequence
         (*request.roles)[port.name] = port.type;
   }
   return load_graph(request, registry_, diagnostics_, info);
+}
+
+const NodeType* Commander::made_by(const Sequence& sequence) {
+  return sequence.source ? registry_.find(sequence.source->type) : nullptr;
 }
 
 namespace {

@@ -50,10 +50,14 @@ class Commander {
   Diagnostics& diagnostics() { return diagnostics_; }
 
   std::optional<Sequence> load(const SequenceOptions&);
+  std::optional<Sequence> load(SequenceRequest);
   std::optional<Graph> load(const GraphOptions&, const Sequence*, GraphInfo* info = nullptr);
+  std::optional<Graph> load(GraphRequest, const Sequence*, GraphInfo* info = nullptr);
   // Opens the frames for what the graph reads.
   std::unique_ptr<FrameSource> open(const Sequence&, const SequenceOptions&, const std::vector<std::string>& roles,
                                     int threads, const std::atomic<bool>* cancel);
+  // The node type that makes the frames; nullptr where files do.
+  const NodeType* made_by(const Sequence&);
   // Prints what was collected to stderr and gives the exit code of the worst of it. Plugins that were passed over
   // because they would not load are warned about.
   int report();
@@ -68,6 +72,7 @@ class Commander {
 
 // Each adds its subcommand, which sets `exit` when it has run.
 void add_run(CLI::App&, int& exit);
+void add_rerun(CLI::App&, int& exit);
 void add_check(CLI::App&, int& exit);
 void add_nodes(CLI::App&, int& exit);
 void add_metrics(CLI::App&, int& exit);

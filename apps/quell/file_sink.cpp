@@ -1,6 +1,7 @@
 // A run's outputs to files.
 #include "apps/quell/file_sink.h"
 
+#include "core/graph/write.h"
 #include "core/report/error.h"
 #include "core/report/suggest.h"
 #include "core/sequence/temporary_file.h"
@@ -8,6 +9,7 @@
 #include <quell/types.h>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -24,13 +26,26 @@ std::string beside(const std::string& first, const std::string& output) {
   return (path.parent_path() / (output + ".####" + path.extension().string())).string();
 }
 
+// What `quell rerun` must know to write this output again.
+std::string output_text(const Graph& graph, const GraphOutput& output, const WriteOptions& options) {
+  nlohmann::ordered_json json{{"name", output.name}, {"type", type_name(output.type)}};
+  if (output.shows >= 0) json["preview_of"] = graph.outputs[std::size_t(output.shows)].name;
+  if (output.tap && output.shows < 0) json["tap"] = reference_text(graph, output.wire);
+  json["half"] = options.half;
+  json["compression"] = options.compression.name;
+  if (options.compression.level) json["level"] = *options.compression.level;
+  return json.dump();
+}
+
 }  // namespace
 
 FileSink::FileSink(const Graph& graph, const Sequence& sequence, std::span<const std::int64_t> frames,
-                   const std::vector<std::string>& wanted, WriteOptions options)
-    : options_(std::move(options)) {
-  for (const auto& output : graph.outputs)
+                   const std::vector<std::string>& wanted, WriteOptions options, Provenance& provenance)
+    : options_(std::move(options)), provenance_(provenance) {
+  for (const auto& output : graph.outputs) {
+    output_texts_.push_back(output_text(graph, output, options_));
     if (output.shows < 0) types_.push_back(output.type), names_.push_back(output.name);
+  }
   const auto texts = choose(wanted);
   for (std::size_t i = 0; i < texts.size(); ++i) {
     patterns_.emplace_back(texts[i]);
@@ -115,15 +130,19 @@ void FileSink::check_files(const Sequence& sequence, std::span<const std::int64_
 }
 
 void FileSink::write(std::int64_t frame, std::span<const quell_image> outputs) {
+  options_.metadata = provenance_.texts(frame);
+  const auto write_one = [&](const FramePattern& pattern, std::size_t output, int type) {
+    options_.metadata["quell:output"] = output_texts_[output];
+    write_image(pattern.path(frame), outputs[output], type, options_);
+  };
   auto value = values_.begin();
   for (std::size_t i = 0; i < patterns_.size(); ++i)
     if (types_[i] == QUELL_VALUE)
       (value++)->frames.emplace_back(frame, outputs[i].plane[0][0]);
     else
-      write_image(patterns_[i].path(frame), outputs[i], types_[i], options_);
+      write_one(patterns_[i], i, types_[i]);
   for (std::size_t i = 0; i < previews_.size(); ++i)
-    if (!previews_[i].text().empty())
-      write_image(previews_[i].path(frame), outputs[patterns_.size() + i], QUELL_DISPLAY, options_);
+    if (!previews_[i].text().empty()) write_one(previews_[i], patterns_.size() + i, QUELL_DISPLAY);
   written_.push_back(frame);
 }
 

@@ -74,6 +74,7 @@ int run(int argc, char** argv) {
       "graphs.");
   int exit = 0;
   quell::add_run(app, exit);
+  quell::add_rerun(app, exit);
   quell::add_check(app, exit);
   quell::add_nodes(app, exit);
   quell::add_metrics(app, exit);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <fstream>
 
 namespace quell {
 
@@ -72,10 +73,19 @@ void SimdOption::apply() const {
               fmt::format("--simd {}: this machine lacks it; it has: {}", wanted, fmt::join(here, ", ")));
 }
 
+std::vector<std::string> command_line() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(file, word, '\0');) words.push_back(std::move(word));
+  return words;
+}
+
 std::string simd_in_use() {
-  for (const auto& target : kTargets)
-    if (present(target)) return target.name;
-  return "scalar";
+  const auto best = std::ranges::find_if(kTargets, present);
+  // Asking Highway for the targets makes it choose among all of them, whatever has been disabled; the next kernel is to
+  // choose anew.
+  hwy::GetChosenTarget().DeInit();
+  return best == std::end(kTargets) ? "scalar" : best->name;
 }
 
 }  // namespace quell

@@ -27,6 +27,9 @@ struct SimdOption {
   void apply() const;
 };
 
+// The words of this process's command line.
+std::vector<std::string> command_line();
+
 // The instruction set that kernels run with now: one of the names that --simd takes.
 std::string simd_in_use();
 

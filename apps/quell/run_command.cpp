@@ -41,12 +41,10 @@ struct RunArguments {
   }
 };
 
-WriteOptions write_options(const RunArguments& a, const Graph& graph) {
+WriteOptions write_options(const RunArguments& a) {
   WriteOptions options;
   options.half = !a.full;
   options.compression = *parse_exr_compression(a.compression);  // checked by its option
-  options.metadata = {
-      {"Software", "quell " QUELL_VERSION}, {"quell:graph", graph.name}, {"quell:fingerprint", fingerprint(graph)}};
   return options;
 }
 
@@ -92,7 +90,10 @@ int run(const RunArguments& a) {
   const int code = commander.report();
   if (!frames || code) return code ? code : int(Exit::input);
 
-  FileSink sink(*graph, *sequence, frames->frames(), a.output, write_options(a, *graph));
+  Provenance provenance(*graph, *frames,
+                        {command_line(), simd_in_use(), a.sequence.missing, a.load_state, commander.locations().graphs,
+                         commander.made_by(*sequence)});
+  FileSink sink(*graph, *sequence, frames->frames(), a.output, write_options(a), provenance);
   if (!a.save_state.empty()) check_writable(a.save_state);
   if (!a.report.empty() && a.report != "-") check_writable(a.report);
   if (!a.trace.empty()) check_writable(a.trace);
@@ -127,7 +128,7 @@ int run(const RunArguments& a) {
     fmt::print(stderr, "{}", values_text(sink.values()));
   }
   if (a.times) fmt::print(stderr, "{}", times_text(report));
-  if (!a.report.empty()) write_report(a.report, *graph, report, sink.values());
+  if (!a.report.empty()) write_report(a.report, *graph, report, sink.values(), provenance);
   if (!a.trace.empty()) trace.write(a.trace);
   return 0;
 }

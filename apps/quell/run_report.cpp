@@ -73,7 +73,7 @@ std::string values_text(std::span<const ReportedValue> values) {
 }
 
 void write_report(const std::string& path, const Graph& graph, const RunReport& r,
-                  std::span<const ReportedValue> values) {
+                  std::span<const ReportedValue> values, const Provenance& provenance) {
   nlohmann::ordered_json j;
   j["quell_report"] = 1;
   j["graph"] = graph.name;
@@ -100,6 +100,7 @@ void write_report(const std::string& path, const Graph& graph, const RunReport& 
     auto& frames = entry["frames"] = nlohmann::ordered_json::object();
     for (const auto& [frame, number] : v.frames) frames[std::to_string(frame)] = number;
   }
+  j["provenance"] = nlohmann::ordered_json::parse(provenance.report());
   const std::string text = j.dump(2) + "\n";
   if (path == "-") {
     std::fputs(text.c_str(), stdout);

@@ -16,7 +16,8 @@ std::string summary_text(const RunReport&);
 std::string times_text(const RunReport&);
 // A line for each output of type value: its mean and range over the frames.
 std::string values_text(std::span<const ReportedValue>);
-// All of that as JSON, to a file or, for "-", to stdout. Throws Error(Exit::resources).
-void write_report(const std::string& path, const Graph&, const RunReport&, std::span<const ReportedValue>);
+// All of that and how it came to be as JSON, to a file or, for "-", to stdout. Throws Error(Exit::resources).
+void write_report(const std::string& path, const Graph&, const RunReport&, std::span<const ReportedValue>,
+                  const Provenance&);
 
 }  // namespace quell

@@ -40,6 +40,14 @@ bool is_file(const fs::path& path) {
 
 }  // namespace
 
+std::optional<std::string> installed_name(const fs::path& graphs, const fs::path& file) {
+  std::error_code error;
+  const auto rest = fs::absolute(file, error).lexically_normal().lexically_relative(
+      fs::absolute(graphs, error).lexically_normal());
+  if (!below(rest) || rest == ".") return std::nullopt;
+  return std::string(kInstalled) + rest.generic_string();
+}
+
 std::vector<std::string> Library::names() const {
   std::vector<std::string> names;
   std::error_code error;

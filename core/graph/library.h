@@ -12,6 +12,9 @@
 
 namespace quell {
 
+// "quell:scenes/room.json" for a file below the folder of installed graphs; nothing for another.
+std::optional<std::string> installed_name(const std::filesystem::path& graphs, const std::filesystem::path& file);
+
 class Library {
  public:
   // `graphs` is the folder of installed graphs.

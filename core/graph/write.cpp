@@ -1,13 +1,13 @@
 // Nodes stand in the graph's own order, each behind all that it reads, so that loading keeps that order.
 #include "core/graph/write.h"
 
+#include "core/graph/library.h"
+#include "core/plugin/document.h"
+
 #include <quell/types.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <cstdlib>
 
 namespace quell {
 
@@ -28,12 +28,6 @@ std::string spaced(const J& json) {
   }
   // A text from a command line need not be UTF-8.
   return json.dump(-1, ' ', false, J::error_handler_t::replace);
-}
-
-// The shortest number that is this float again.
-double number(float value) {
-  const double shortest = std::strtod(fmt::format("{}", value).c_str(), nullptr);
-  return float(shortest) == value ? shortest : double(value);
 }
 
 class Writer {
@@ -136,39 +130,20 @@ class Writer {
 
   // Null for what is not written: a default that names a file, and a file that a graph cannot name.
   J setting(const GraphNode& n, int i) {
-    const auto& p = n.type().params()[std::size_t(i)];
-    const auto& values = n.instance;
-    switch (p.kind) {
-      case QUELL_BOOL:
-        return values.get_bool(i);
-      case QUELL_INT:
-        return values.get_int(i);
-      case QUELL_FLOAT:
-        return number(values.get_float(i));
-      case QUELL_CHOICE:
-        return p.choices[values.get_int(i)];
-      case QUELL_FLOATS: {
-        J list = J::array();
-        for (const float v : values.get_floats(i)) list.push_back(number(v));
-        return list;
-      }
-      case QUELL_PATH:
-        return path(n, i);
-      default: {
-        std::string text(values.get_text(i));
-        return text.starts_with("$") ? "$" + text : text;
-      }
-    }
+    const auto kind = n.type().params()[std::size_t(i)].kind;
+    if (kind == QUELL_PATH) return path(n, i);
+    J value = J::parse(value_json(n.instance, i));
+    // A dollar in front would name a parameter of the graph.
+    if (kind == QUELL_TEXT && value.get_ref<const std::string&>().starts_with("$"))
+      value = "$" + value.get<std::string>();
+    return value;
   }
 
   J path(const GraphNode& n, int i) {
     const std::string text(n.instance.get_text(i));
     if (text == Instance(n.type()).get_text(i)) return nullptr;
-    std::error_code error;
-    const auto installed = std::filesystem::absolute(graphs_, error).lexically_normal();
-    const auto below = std::filesystem::path(text).lexically_relative(installed);
-    if (!below.empty() && *below.begin() != "..") return "quell:" + below.generic_string();
     if (text.empty()) return text;
+    if (auto name = installed_name(graphs_, text)) return *name;
     out_.files.push_back(fmt::format("{}.{}={}", n.name, n.type().params()[std::size_t(i)].name, text));
     return nullptr;
   }

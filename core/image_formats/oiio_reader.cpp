@@ -119,6 +119,13 @@ class OiioReader : public ImageReader {
     if (input_->has_error()) input_->geterror();
   }
 
+  std::map<std::string, std::string> texts() override {
+    std::map<std::string, std::string> texts;
+    for (const auto& attribute : input_->spec(0).extra_attribs)
+      if (attribute.type() == oiio::TypeDesc::STRING) texts.emplace(attribute.name(), attribute.get_string());
+    return texts;
+  }
+
   void read(int index, std::span<const ChannelRead> reads, std::ptrdiff_t pitch, const Window& window) override {
     const ImagePart& part = parts_[std::size_t(index)];
     const auto runs = runs_of(part, reads);

@@ -41,11 +41,14 @@ const char* kind_name(int kind) {
   }
 }
 
-OrderedJson default_of(const NodeType& type, int param) {
-  const Instance instance(type);
-  const auto& p = type.params()[std::size_t(param)];
-  // A float in its shortest form: 0.1, not 0.10000000149.
-  const auto number = [](float v) { return OrderedJson::parse(fmt::format("{}", v)); };
+// Whole numbers without a point, but for minus nothing, which would become nothing.
+OrderedJson number(float v) {
+  const bool minus_nothing = v == 0 && std::signbit(v);
+  return minus_nothing ? OrderedJson(-0.0) : OrderedJson::parse(fmt::format("{}", v));
+}
+
+OrderedJson value_of(const Instance& instance, int param) {
+  const auto& p = instance.type().params()[std::size_t(param)];
   switch (p.kind) {
     case QUELL_BOOL:
       return instance.get_bool(param);
@@ -64,6 +67,8 @@ OrderedJson default_of(const NodeType& type, int param) {
       return std::string(instance.get_text(param));
   }
 }
+
+OrderedJson default_of(const NodeType& type, int param) { return value_of(Instance(type), param); }
 
 // "radiance", "weight[]", "id?".
 std::string type_text(const quell_port& port) {
@@ -113,6 +118,11 @@ std::string takes(const quell_param& p) {
 }
 
 std::string default_json(const NodeType& type, int param) { return default_of(type, param).dump(); }
+
+std::string value_json(const Instance& instance, int param) {
+  // A text from a command line need not be UTF-8.
+  return value_of(instance, param).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+}
 
 std::string document_text(const NodeType& type) {
   std::string out = fmt::format("{}  {}\n", type.name(), type.table().summary);

@@ -15,6 +15,8 @@ std::string markdown_cell(std::string_view);
 std::string takes(const quell_param&);
 // Its default as JSON: 0.5, "b3", [0, 1, 0].
 std::string default_json(const NodeType&, int param);
+// Its value as JSON, exact.
+std::string value_json(const Instance&, int param);
 
 // For `quell nodes NAME`.
 std::string document_text(const NodeType&);

@@ -94,15 +94,17 @@ class Run {
       writer_.wait();
       session_->forget();
     }
-    if (session_->age() == 0) ++report_.resets;
+    const bool begins = session_->age() == 0;
+    if (begins) ++report_.resets;
     const auto overlap = options_.overlap ? session_->plan().overlap() : Overlap{false, false};
     if (overlap.reading && i + 1 < frames.size())
       reader_.start([this, frame = frames[i + 1], images = session_->inputs(1)] { read(frame, images); });
     filter(frames[i]);
     if (overlap.writing)
-      writer_.start([this, frame = frames[i], outputs = session_->outputs()] { write(frame, outputs); });
+      writer_.start(
+          [this, frame = frames[i], outputs = session_->outputs(), begins] { write(frame, outputs, begins); });
     else
-      write(frames[i], session_->outputs());
+      write(frames[i], session_->outputs(), begins);
     session_->advance();
     ++report_.frames;
     if (options_.progress) options_.progress({frames[i], i + 1, frames.size()});
@@ -129,9 +131,10 @@ class Run {
       pending_shapes_ = std::move(shapes);
   }
 
-  void write(std::int64_t frame, const std::vector<quell_image>& outputs) {
+  void write(std::int64_t frame, const std::vector<quell_image>& outputs, bool begins) {
     const JobSpan job(writing_);
     const Trace::Span span(options_.trace, {"write", "file", frame}, Trace::kWriting);
+    if (begins) sink_.history_begins(frame);
     sink_.write(frame, outputs);
   }
 

@@ -23,6 +23,8 @@ class FrameSink {
   virtual ~FrameSink() = default;
   // May run on another thread while the next frame is filtered; one call at a time, in the order of the frames.
   virtual void write(std::int64_t frame, std::span<const quell_image> outputs) = 0;
+  // Before a frame is written that has no past.
+  virtual void history_begins(std::int64_t /*frame*/) {}
 };
 
 struct Progress {

@@ -2,6 +2,8 @@
 #include "core/run/node_source.h"
 
 #include "core/report/error.h"
+#include "core/run/named_files.h"
+#include "core/sequence/write.h"
 
 #include <quell/types.h>
 
@@ -74,6 +76,7 @@ std::vector<quell_shape> NodeSource::shapes(std::int64_t, std::span<const std::s
 }
 
 void NodeSource::read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) {
+  for (const auto& [name, hash] : hashes_) watcher_(frame, name, hash);
   std::vector<quell_image> out(shapes_.size());
   for (std::size_t i = 0; i < roles.size(); ++i) out[output(roles[i])] = into[i];
   std::size_t tiled = out.size();
@@ -90,6 +93,15 @@ void NodeSource::read(std::int64_t frame, std::span<const std::string> roles, st
   workers_.run(out[tiled].height, 16, [&](int, int y0, int y1) {
     workers_.run(node_, resource_.get(), {in.data(), out.data(), 0, y0, out[tiled].width, y1, frame});
   });
+}
+
+std::string NodeSource::description(const std::filesystem::path& graphs) const {
+  return write_sequence(node_.instance, frames_, cuts_, graphs);
+}
+
+void NodeSource::watch_files(FileWatcher watcher) {
+  watcher_ = std::move(watcher);
+  hashes_ = named_files(node_.name, node_.instance);
 }
 
 }  // namespace quell

@@ -25,6 +25,8 @@ class NodeSource : public FrameSource {
   std::vector<quell_shape> shapes(std::int64_t frame, std::span<const std::string> roles) override;
   void read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) override;
   std::map<std::string, Repairs> repairs() const override { return {}; }
+  std::string description(const std::filesystem::path& graphs) const override;
+  void watch_files(FileWatcher) override;
 
  private:
   std::size_t output(const std::string& role) const;
@@ -37,6 +39,8 @@ class NodeSource : public FrameSource {
   Workers workers_;
   std::unique_ptr<void, void (*)(void*)> resource_;
   std::vector<Image> unasked_;  // where outputs go that nobody reads
+  FileWatcher watcher_;
+  std::map<std::string, std::string> hashes_;  // of files that parameters name, by "source.parameter"
 };
 
 }  // namespace quell

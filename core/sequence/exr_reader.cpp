@@ -10,8 +10,10 @@
 
 #include <OpenEXR/IexBaseExc.h>
 #include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -128,6 +130,17 @@ class ExrReader : public ImageReader {
       }
       hands_.give_back(std::move(hand));
     });
+  }
+
+  std::map<std::string, std::string> texts() override {
+    std::map<std::string, std::string> texts;
+    auto hand = hands_.take([&] { return open_again(0); });
+    const auto& header = hand->file.header(0);
+    for (auto it = header.begin(); it != header.end(); ++it)
+      if (const auto* text = header.findTypedAttribute<Imf::StringAttribute>(it.name()))
+        texts.emplace(it.name(), text->value());
+    hands_.give_back(std::move(hand));
+    return texts;
   }
 
   void read(int part, std::span<const ChannelRead> reads, std::ptrdiff_t pitch, const Window& window) override {

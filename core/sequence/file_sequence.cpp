@@ -4,10 +4,11 @@
 #include "core/image/image.h"
 #include "core/report/error.h"
 #include "core/report/suggest.h"
+#include "core/sequence/channels.h"
+#include "core/sequence/file_hash.h"
 #include "core/sequence/frame_range.h"
-#include "core/sequence/profile.h"
-#include "core/sequence/role.h"
 #include "core/sequence/sequence.h"
+#include "core/sequence/write.h"
 
 #include <quell/types.h>
 
@@ -99,6 +100,7 @@ class FileSequence::Impl {
         const Bound& bound = bound_of(roles[i]);
         by_file[bound.input->file.path(stand_in(*bound.input, frame))].push_back(i);
       }
+      if (watcher_) hash_files(by_file, frame, roles);
       for (const auto& [path, members] : by_file) read_file(path, members, frame, roles, into);
       return 0;
     });
@@ -106,6 +108,20 @@ class FileSequence::Impl {
 
   void refuse_non_finite(std::span<const std::string> roles) { strict_.insert(roles.begin(), roles.end()); }
   std::map<std::string, Repairs> repairs() const { return repairs_; }
+  void watch_files(FileWatcher watcher) { watcher_ = std::move(watcher); }
+
+  // With the channels that were found in place of those that were looked for.
+  std::string description() const {
+    Sequence found = sequence_;
+    for (auto* list : {&found.inputs, &found.references}) {
+      std::erase_if(*list, [&](const SequenceInput& i) { return !bound_.contains(i.role); });
+      for (auto& input : *list) {
+        const Bound& bound = bound_.at(input.role);
+        input.choices = {{bound.channels, false, bound.conversion, {}}};
+      }
+    }
+    return write_sequence(found);
+  }
 
  private:
   // Conversions between spaces read the camera, even if no graph does.
@@ -196,38 +212,6 @@ class FileSequence::Impl {
       return 0;
     });
     bound_[input.role] = std::move(bound);
-  }
-
-  static std::vector<std::string> find_channels(const std::vector<std::string>& names, const ChannelChoice& choice,
-                                                int type) {
-    if (!choice.channels.empty()) {
-      const auto layer = layer_with(names, choice.channels, choice.layered);
-      std::vector<std::string> out;
-      if (layer)
-        for (const auto& channel : choice.channels) out.push_back(*layer + channel);
-      return out;
-    }
-    for (const auto& usual : usual_channels(type))
-      if (layer_with(names, usual, false)) return usual;
-    // A lone channel can only be what is asked for.
-    return names.size() == 1 && type_info(type)->channels == 1 ? names : std::vector<std::string>();
-  }
-
-  static void report_channels(const SequenceInput& input, const std::string& path,
-                              const std::vector<std::string>& names, Diagnostics& diagnostics) {
-    const auto& choice = input.choices.front();
-    for (const auto& channel : choice.channels)
-      if (std::ranges::find(names, channel) == names.end())
-        diagnostics.error(choice.position, input.where, fmt::format("'{}' has no channel '{}'", path, channel),
-                          {possibilities("it has", channel, names)});
-    if (choice.channels.empty()) {
-      std::vector<std::string> usual;
-      for (const auto& u : usual_channels(input.type)) usual.push_back(fmt::format("{}", fmt::join(u, " ")));
-      diagnostics.error(input.position, input.where,
-                        fmt::format("'{}' has no channels by the usual names of {}", path, type_name(input.type)),
-                        {fmt::format("usual names: {}", fmt::join(usual, ", ")), possibilities("it has", "", names),
-                         "name them with \"channels\""});
-    }
   }
 
   const Bound& bound_of(const std::string& role) {
@@ -342,6 +326,17 @@ class FileSequence::Impl {
                     path, role, p.x, p.y, p.value, bound.channels[std::size_t(p.channel)]));
   }
 
+  // Before they are read, so that of a file on a disk the second pass comes from memory.
+  void hash_files(const std::map<std::string, std::vector<std::size_t>>& by_file, std::int64_t frame,
+                  std::span<const std::string> roles) {
+    std::set<std::string> paths;
+    for (const auto& [path, members] : by_file) paths.insert(path);
+    if (std::ranges::any_of(roles, [&](const std::string& r) { return bound_of(r).conversion.needs_camera(); }))
+      paths.insert(camera_->file.path(stand_in(*camera_, frame)));
+    for (const auto& [path, hash] : hashes_.of({paths.begin(), paths.end()}))
+      watcher_(frame, name_below(sequence_.root, path), hash);
+  }
+
   void fill_missing_role(const std::string& role, const quell_image& image) {
     fill_missing(image, bound_of(role).input->type);
   }
@@ -362,6 +357,8 @@ class FileSequence::Impl {
   FrameMatrices matrices_;
   std::map<std::string, Repairs> repairs_;
   std::set<std::string> strict_;  // roles that may hold nothing that is not finite
+  FileWatcher watcher_;
+  FileHashes hashes_;
 };
 
 FileSequence::FileSequence(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -381,6 +378,8 @@ void FileSequence::read(std::int64_t frame, std::span<const std::string> roles, 
 }
 void FileSequence::refuse_non_finite(std::span<const std::string> roles) { impl_->refuse_non_finite(roles); }
 std::map<std::string, Repairs> FileSequence::repairs() const { return impl_->repairs(); }
+std::string FileSequence::description(const std::filesystem::path&) const { return impl_->description(); }
+void FileSequence::watch_files(FileWatcher watcher) { impl_->watch_files(std::move(watcher)); }
 const std::vector<std::int64_t>& FileSequence::reference_frames() const { return impl_->reference_frames(); }
 const std::vector<std::int64_t>& FileSequence::missing_frames() const { return impl_->missing_frames(); }
 

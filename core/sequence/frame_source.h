@@ -4,6 +4,8 @@
 #include <quell/abi.h>
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -16,6 +18,10 @@ struct Repairs {
   std::int64_t non_finite = 0;  // pixels with NaN or Inf, replaced
   std::int64_t negative = 0;    // pixels with negative radiance, raised to 0
 };
+
+// Told of a file that a frame is made from: its name, as FrameSource::description() has it, and the hash of its bytes
+// (core/sequence/file_hash.h).
+using FileWatcher = std::function<void(std::int64_t frame, const std::string& name, const std::string& hash)>;
 
 class FrameSource {
  public:
@@ -41,6 +47,12 @@ class FrameSource {
   virtual void refuse_non_finite(std::span<const std::string>) {}
   // Totals so far, by role.
   virtual std::map<std::string, Repairs> repairs() const = 0;
+
+  // The same frames as a sequence file that stands for itself; "" where none can say them. `graphs` is the folder of
+  // installed graphs, whose files are named "quell:…".
+  virtual std::string description(const std::filesystem::path& /*graphs*/) const { return ""; }
+  // Hashes files from now on, before they are read and on the thread that reads them, and tells of each.
+  virtual void watch_files(FileWatcher) {}
 };
 
 }  // namespace quell

@@ -100,6 +100,14 @@ int ImageFile::find(std::string_view name) const {
   return -1;
 }
 
+std::map<std::string, std::string> ImageFile::texts() const {
+  try {
+    return reader_->texts();
+  } catch (const std::exception& e) {
+    refuse(fmt::format("its attributes cannot be read: {}", e.what()));
+  }
+}
+
 const ImagePart& ImageFile::part_of(int channel) const {
   return reader_->parts()[std::size_t(channels_[std::size_t(channel)].part)];
 }

@@ -4,6 +4,7 @@
 #include <quell/abi.h>
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -52,6 +53,9 @@ class ImageFile {
   const std::vector<FileChannel>& channels() const { return channels_; }
   std::vector<std::string> channel_names() const;
   int find(std::string_view name) const;  // index or -1
+
+  // Attributes of the first part that are text, by name. Throws Error(Exit::input).
+  std::map<std::string, std::string> texts() const;
 
   // Size of the display window of a channel's part.
   quell_shape size(int channel) const;

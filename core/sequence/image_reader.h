@@ -4,6 +4,7 @@
 #include "core/sequence/image_file.h"
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -40,6 +41,9 @@ class ImageReader {
  public:
   virtual ~ImageReader() = default;
   const std::vector<ImagePart>& parts() const { return parts_; }
+
+  // Attributes of the first part that are text.
+  virtual std::map<std::string, std::string> texts() = 0;
 
   // Reads channels of a part (`channel` is the index in the part). `window` is what to read, in pixels of the display
   // window, and lies within the data window. Throws std::exception with the reason.

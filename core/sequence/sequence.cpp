@@ -44,7 +44,7 @@ class Loader {
   std::optional<Sequence> load() {
     const std::size_t before = diagnostics_.errors();
     read_frames_option();
-    if (request_.path.ends_with(".json")) {
+    if (request_.text || request_.path.ends_with(".json")) {
       document();
     } else if (std::filesystem::is_directory(request_.path)) {
       folder();
@@ -70,7 +70,8 @@ class Loader {
   // ---- A sequence file ----
 
   void document() {
-    const auto json = parse_json_file(request_.path, diagnostics_, Exit::input);
+    const auto json = request_.text ? parse_json(request_.path, *request_.text, diagnostics_)
+                                    : parse_json_file(request_.path, diagnostics_, Exit::input);
     if (!json) return;
     if (!json->is(Json::Kind::object)) {
       diagnostics_.error(json->position, "", fmt::format("a sequence is an object, not {}", json->shown()));
@@ -91,6 +92,7 @@ class Loader {
     std::filesystem::path root = std::filesystem::path(request_.path).parent_path();
     if (const Json* j = member(*json, "root", Json::Kind::text, "", diagnostics_)) root /= j->text;
     if (request_.root) root = *request_.root;
+    sequence_.root = root;
     DocumentContext context{diagnostics_, root};
     frames(*json);
     cuts(*json);
@@ -294,12 +296,13 @@ class Loader {
 
   void images() {
     const FramePattern pattern(request_.path);
+    sequence_.root = std::filesystem::path(request_.path).parent_path();
     if (!pattern.numbered() && !std::filesystem::exists(request_.path)) no_frames(request_.path);
     if (const auto profile = recognise(pattern, {})) take_image_roles(*profile, pattern);
   }
 
   void folder() {
-    const std::filesystem::path folder = request_.path;
+    const std::filesystem::path folder = sequence_.root = request_.path;
     const auto names = profile_names(request_.profiles);
     std::vector<std::string> looked_for;
     for (const auto& name : names) {

@@ -56,6 +56,7 @@ struct ReferenceSource {
 
 struct Sequence {
   std::string path;
+  std::filesystem::path root;  // folder that its files' names are relative to
   std::string about;
   std::vector<std::int64_t> frames;
   std::set<std::int64_t> cuts;
@@ -76,6 +77,7 @@ struct SequenceRequest {
   std::optional<std::string>
       root;  // --root: the folder that the files' names are relative to, in place of the file's own
   std::filesystem::path profiles;  // folder of the profiles
+  std::optional<std::string> text = {};  // of a sequence file, in place of what `path` holds
 };
 
 // Parses and checks the document and says which frames there are; opens no image, except to recognise a profile.

@@ -1,8 +1,8 @@
-/* A plugin that copies radiance and fails in one row of one frame, for runs that end in the middle. */
+/* A plugin that copies radiance, TRIPS_GAIN times, and fails in one row of one frame, for runs that end in the middle.
+ */
 #include <quell/abi.h>
 
 #include <stdio.h>
-#include <string.h>
 
 typedef struct trips {
   int32_t frame, row;
@@ -26,8 +26,8 @@ static int32_t run(const void* instance, const void* resource, const quell_tile*
   }
   for (int c = 0; c < 3; ++c)
     for (int32_t y = tile->y0; y < tile->y1; ++y)
-      memcpy(out->plane[c] + y * out->pitch + tile->x0, in->plane[c] + y * in->pitch + tile->x0,
-             sizeof(float) * (size_t)(tile->x1 - tile->x0));
+      for (int32_t x = tile->x0; x < tile->x1; ++x)
+        out->plane[c][y * out->pitch + x] = TRIPS_GAIN * in->plane[c][y * in->pitch + x];
   return 0;
 }
 
@@ -49,7 +49,7 @@ static const quell_node node = {
 };
 static const quell_node* const nodes[] = {&node};
 static const quell_plugin_table table = {
-    QUELL_MAGIC, QUELL_ABI_MAJOR, QUELL_ABI_MINOR, sizeof(quell_plugin_table), 1, nodes, "1.0", "C",
+    QUELL_MAGIC, QUELL_ABI_MAJOR, QUELL_ABI_MINOR, sizeof(quell_plugin_table), 1, nodes, TRIPS_VERSION, "C",
 };
 
 __attribute__((visibility("default"))) const quell_plugin_table* quell_plugin(void);
