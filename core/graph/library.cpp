@@ -42,8 +42,8 @@ bool is_file(const fs::path& path) {
 
 std::optional<std::string> installed_name(const fs::path& graphs, const fs::path& file) {
   std::error_code error;
-  const auto rest = fs::absolute(file, error).lexically_normal().lexically_relative(
-      fs::absolute(graphs, error).lexically_normal());
+  const auto rest =
+      fs::absolute(file, error).lexically_normal().lexically_relative(fs::absolute(graphs, error).lexically_normal());
   if (!below(rest) || rest == ".") return std::nullopt;
   return std::string(kInstalled) + rest.generic_string();
 }

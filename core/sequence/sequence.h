@@ -76,7 +76,7 @@ struct SequenceRequest {
   std::optional<std::string> frames;  // --frames: in place of the file's own
   std::optional<std::string>
       root;  // --root: the folder that the files' names are relative to, in place of the file's own
-  std::filesystem::path profiles;  // folder of the profiles
+  std::filesystem::path profiles;        // folder of the profiles
   std::optional<std::string> text = {};  // of a sequence file, in place of what `path` holds
 };
 
