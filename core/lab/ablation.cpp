@@ -85,6 +85,15 @@ class StudyRun {
       for (const auto i : {first, first + (frames.size() - 1 - first) / 2, frames.size() - 1})
         images.frames.insert(frames[i]);
     }
+    Study here = study_;
+    here.sequences = {study_.sequences[s]};
+    for (std::size_t v = 0; v < study_.variants.size(); ++v) {
+      const auto& graph = trials_[s].variants()[v].plain;
+      images.attributes.push_back({{"quell:graph", write_graph(graph, lab_.graphs).text},
+                                   {"quell:fingerprint", fingerprint(graph)},
+                                   {"quell:variant", study_.variants[v].name},
+                                   {"quell:command", run_command(here, study_.variants[v])}});
+    }
     return images;
   }
 

@@ -151,18 +151,19 @@ void Group::write(std::int64_t frame, std::span<const quell_image> outputs, cons
                   const std::map<std::string, std::string>& metadata) const {
   if (!images.frames.contains(frame)) return;
   WriteOptions options;
-  options.metadata = metadata;
   for (std::size_t p = 0; p < variants_.size(); ++p) {
     const auto& judged = trial_->variants()[variants_[p]];
     const auto& name = study_->variants[variants_[p]].name;
     const auto image = [&](int output) { return outputs[first_output_[p] + std::size_t(output)]; };
-    options.metadata["quell:fingerprint"] = fingerprint(judged.plain);
+    options.metadata = metadata;
+    if (!images.attributes.empty())
+      options.metadata.insert(images.attributes[variants_[p]].begin(), images.attributes[variants_[p]].end());
     write_image(images.output(name, frame), image(judged.judged), QUELL_RADIANCE, options);
     for (std::size_t m = 0; m < judged.metrics.size(); ++m)
       if (const int map = judged.metrics[m].map; map >= 0)
         write_image(images.map(trial_->metrics()[m].name, name, frame), image(map), QUELL_SCALAR, options);
   }
-  options.metadata.erase("quell:fingerprint");
+  options.metadata = metadata;
   const std::size_t first = outputs.size() - seen_.outputs.size();
   for (std::size_t i = 0; i < seen_.outputs.size(); ++i) {
     const bool input = seen_.outputs[i].name == kInput;

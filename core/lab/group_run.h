@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ namespace quell {
 struct StudyImages {
   std::filesystem::path folder;  // of this sequence
   std::set<std::int64_t> frames;
+  // By variant of the study: what its images carry, so that each can be made again.
+  std::vector<std::map<std::string, std::string>> attributes = {};
 
   std::string output(const std::string& variant, std::int64_t frame) const;
   std::string map(const std::string& metric, const std::string& variant, std::int64_t frame) const;
