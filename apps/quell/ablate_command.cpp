@@ -36,12 +36,6 @@ struct AblateArguments {
   }
 };
 
-void write_text(const fs::path& path, const std::string& text) {
-  TemporaryFile file(path.string());
-  file.write(text.data(), text.size());
-  file.commit();
-}
-
 // What an earlier run left is gone on with, or goes, but only when that was asked for.
 void look_at_journal(const AblateArguments& a) {
   const fs::path journal = fs::path(a.output) / "journal";
@@ -108,11 +102,11 @@ int run(const AblateArguments& a) {
   std::vector<double> cost;
   for (const auto& times : ablation.times) cost.push_back(times.own * 1e3);
   const auto timings = timings_json(ablation, a.threads ? a.threads : usable_cores());
-  write_text(folder / "timings.json", timings);
-  write_text(folder / "results.csv", results_csv(ablation.results));
-  write_text(folder / "table.md", table_markdown(ablation.results, cost));
-  write_text(folder / "table.tex", table_latex(ablation.results, cost));
-  write_text(folder / "results.json", results_json(ablation.results));
+  write_file((folder / "timings.json").string(), timings);
+  write_file((folder / "results.csv").string(), results_csv(ablation.results));
+  write_file((folder / "table.md").string(), table_markdown(ablation.results, cost));
+  write_file((folder / "table.tex").string(), table_latex(ablation.results, cost));
+  write_file((folder / "results.json").string(), results_json(ablation.results));
   write_report_html((folder / "report.html").string(),
                     study_report(*study, trials->front(), ablation.results, timings, folder));
   if (!a.quiet) {

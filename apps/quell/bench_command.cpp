@@ -47,12 +47,6 @@ Timing read_baseline(const std::string& path) {
   return parse_timing(path, {std::istreambuf_iterator<char>(file), {}});
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  TemporaryFile file(path);
-  file.write(text.data(), text.size());
-  file.commit();
-}
-
 int bench(const BenchArguments& a) {
   check(a);
   const auto& cancel = watch_interrupts();
@@ -96,7 +90,7 @@ int bench(const BenchArguments& a) {
   if (a.json == "-")
     fmt::print("{}", timing_json(measured));
   else if (!a.json.empty())
-    write_text(a.json, timing_json(measured));
+    write_file(a.json, timing_json(measured));
   if (!a.trace.empty()) trace.write(a.trace);
   if (!baseline) return 0;
   const auto comparison = compare(*baseline, measured);

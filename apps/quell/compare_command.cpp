@@ -50,9 +50,7 @@ void write_text(const std::string& path, const std::string& text) {
     std::fputs(text.c_str(), stdout);
     return;
   }
-  TemporaryFile file(path);
-  file.write(text.data(), text.size());
-  file.commit();
+  write_file(path, text);
 }
 
 // Exit::threshold when one of them is met, and says so.

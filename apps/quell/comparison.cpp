@@ -7,6 +7,7 @@
 #include "core/lab/halves.h"
 #include "core/lab/merge.h"
 #include "core/lab/metric.h"
+#include "core/report/shell.h"
 #include "core/report/suggest.h"
 #include "core/sequence/frame_pattern.h"
 #include "core/sequence/image_writer.h"
@@ -238,6 +239,7 @@ class Comparison {
     for (const auto& p : request_.pictures) {
       ResultVariant v;
       v.name = p.name, v.about = p.text, v.edits = "{}";
+      v.command = shell_text(command_line()), v.fingerprint = fingerprint(graph_);
       r.variants.push_back(std::move(v));
     }
     const auto size = source_->shapes(source_->frames().front(), std::vector<std::string>{role_of(0)}).front();

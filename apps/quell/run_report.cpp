@@ -106,9 +106,7 @@ void write_report(const std::string& path, const Graph& graph, const RunReport& 
     std::fputs(text.c_str(), stdout);
     return;
   }
-  TemporaryFile file(path);
-  file.write(text.data(), text.size());
-  file.commit();
+  write_file(path, text);
 }
 
 }  // namespace quell

@@ -98,12 +98,7 @@ int run(const TestArguments& a) {
     for (const auto& f : o.failures) annotate(diagnostics, test, f);
     if (!o.error.empty()) annotate(diagnostics, test, o.error);
   }
-  if (!a.junit.empty()) {
-    const std::string text = junit_xml(suite->name, outcomes);
-    TemporaryFile file(a.junit);
-    file.write(text.data(), text.size());
-    file.commit();
-  }
+  if (!a.junit.empty()) write_file(a.junit, junit_xml(suite->name, outcomes));
   const auto good = std::ranges::count_if(outcomes, &TestOutcome::good);
   fmt::print("{} passed, {} failed\n", good, std::ssize(outcomes) - good);
   return good == std::ssize(outcomes) ? 0 : int(Exit::threshold);

@@ -28,12 +28,6 @@ struct TuneArguments {
   SimdOption simd;
 };
 
-void write_text(const fs::path& path, const std::string& text) {
-  TemporaryFile file(path.string());
-  file.write(text.data(), text.size());
-  file.commit();
-}
-
 std::string step_text(const Tuning& tuning, const TunedStep& step) {
   std::string text;
   for (std::size_t i = 0; i < step.parameters.size(); ++i)
@@ -129,9 +123,10 @@ int run(const TuneArguments& a) {
                 fmt::format("interrupted; quell tune {} -o {} --resume goes on", a.tuning, a.output));
   }
   const auto& best = result.steps[result.best];
-  write_text(folder / "variant.json", variant_text(*tuning, tuner.edits(best.parameters), result.training_before.value,
-                                                   best.score.value, commander));
-  write_text(folder / "tuning.json", result_json(*tuning, result));
+  write_file(
+      (folder / "variant.json").string(),
+      variant_text(*tuning, tuner.edits(best.parameters), result.training_before.value, best.score.value, commander));
+  write_file((folder / "tuning.json").string(), result_json(*tuning, result));
   fmt::print("{} steps, {}\n", result.steps.size(), result.converged ? "converged" : "no more were allowed");
   print_row("training", result.training_before, best.score);
   if (result.held_out_before) print_row("held out", *result.held_out_before, *result.held_out_after);

@@ -280,10 +280,8 @@ Ablation run_study(const Study& study, const std::vector<Trial>& trials, Laborat
 
 void write_variants(const Study& study, const Trial& trial, const Laboratory& lab, const fs::path& folder) {
   for (std::size_t v = 0; v < study.variants.size(); ++v) {
-    TemporaryFile file((folder / (study.variants[v].name + ".json")).string());
-    const auto text = write_graph(trial.variants()[v].plain, lab.graphs).text;
-    file.write(text.data(), text.size());
-    file.commit();
+    write_file((folder / (study.variants[v].name + ".json")).string(),
+               write_graph(trial.variants()[v].plain, lab.graphs).text);
   }
 }
 

@@ -1,6 +1,8 @@
 // Edits of a graph as text.
 #include "core/lab/edits.h"
 
+#include "core/report/shell.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -37,15 +39,6 @@ ordered_json to_json(const Json& j) {
   return object;
 }
 
-// A word of a command, quoted where a shell would read more into it.
-std::string word(const std::string& text) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.=,+-/:@%";
-  if (!text.empty() && text.find_first_not_of(kPlain) == text.npos) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 // As the command line takes it: text as it is where that reads as no JSON, all else as JSON.
 std::string value(const Json& j) {
   if (j.is(Json::Kind::text) && !ordered_json::accept(j.text)) return j.text;
@@ -59,10 +52,9 @@ std::string edits_text(const Json& edits) { return to_json(edits).dump(); }
 std::string run_command(const Study& study, const StudyVariant& variant) {
   const auto& sequence = study.sequences.front();
   const bool built_in = sequence.written.find_first_of("/.#@%") == std::string::npos;
-  std::string text =
-      fmt::format("quell run {} {}", word(variant.graph), word(built_in ? sequence.written : sequence.path));
+  std::vector<std::string> words = {"quell", "run", variant.graph, built_in ? sequence.written : sequence.path};
   const auto option = [&](const char* name, const std::string& argument) {
-    text += fmt::format(" {} {}", name, word(argument));
+    words.emplace_back(name), words.push_back(argument);
   };
   if (sequence.root) option("--root", *sequence.root);
   if (sequence.frames) option("--frames", *sequence.frames);
@@ -75,7 +67,7 @@ std::string run_command(const Study& study, const StudyVariant& variant) {
   if (const Json* bypass = variant.edits.find("bypass"))
     for (const auto& name : bypass->is(Json::Kind::list) ? std::span(bypass->items) : std::span(bypass, 1))
       option("--bypass", name.text);
-  return text;
+  return shell_text(words);
 }
 
 }  // namespace quell

@@ -53,12 +53,7 @@ json read(const fs::path& file) {
   return j.is_discarded() ? json() : j;
 }
 
-void write(const fs::path& path, const json& j) {
-  const std::string text = j.dump() + "\n";
-  TemporaryFile file(path.string());
-  file.write(text.data(), text.size());
-  file.commit();
-}
+void write(const fs::path& path, const json& j) { write_file(path.string(), j.dump() + "\n"); }
 
 }  // namespace
 

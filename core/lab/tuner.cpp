@@ -166,10 +166,7 @@ void Tuner::read_journal() {
 void Tuner::write_journal() const {
   ordered_json j = {{"key", key_}, {"steps", ordered_json::array()}};
   for (const auto& parameters : order_) j["steps"].push_back(to_json(parameters, known_.at(parameters)));
-  const std::string text = j.dump(1) + "\n";
-  TemporaryFile file(options_.journal.string());
-  file.write(text.data(), text.size());
-  file.commit();
+  write_file(options_.journal.string(), j.dump(1) + "\n");
 }
 
 }  // namespace quell

@@ -66,11 +66,6 @@ std::string Trace::json() const {
   return out + "\n]}\n";
 }
 
-void Trace::write(const std::string& path) const {
-  const auto text = json();
-  TemporaryFile file(path);
-  file.write(text.data(), text.size());
-  file.commit();
-}
+void Trace::write(const std::string& path) const { write_file(path, json()); }
 
 }  // namespace quell

@@ -60,6 +60,12 @@ void check_replaceable(const std::string& path) {
 
 }  // namespace
 
+void write_file(const std::string& path, std::string_view text) {
+  TemporaryFile file(path);
+  file.write(text.data(), text.size());
+  file.commit();
+}
+
 void check_writable(const std::string& path) {
   check_replaceable(path);
   std::error_code error;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace quell {
 
@@ -24,6 +25,9 @@ class TemporaryFile {
   int file_ = -1;
   int slot_ = -1;
 };
+
+// The whole text under this name, or nothing.
+void write_file(const std::string& path, std::string_view text);
 
 // Throws what making a TemporaryFile of this path would throw, as far as a look can tell, and makes nothing: so that a
 // long run does not fail at its end.
