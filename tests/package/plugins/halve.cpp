@@ -12,7 +12,7 @@ struct Halve {
     d.summary("Multiplies every number with a factor.");
     d.in(image, "image", "Any image.");
     d.out(half, "image", "The image, scaled.").passes(image);
-    d.param(factor, "factor", "What each number is multiplied with.").range(0.0, 1.0);
+    d.param(factor, "factor", "Factor that each number is multiplied with.").range(0.0, 1.0);
   }
 
   void run(const quell::Tile& tile) const {
