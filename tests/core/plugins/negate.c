@@ -38,8 +38,8 @@ typedef struct negate {
 
 static const quell_port inputs[] = {{"image", "Image.", QUELL_SCALAR, 0, -1, -1}};
 static const quell_port outputs[] = {{"image", "The image, negated.", QUELL_SCALAR, 0, 0, -1}};
-static const quell_param params[] = {
-    {"factor", "Factor that each number is multiplied with.", QUELL_FLOAT, 1, offsetof(negate, factor), 0, 10, NULL, 0, 0}};
+static const quell_param params[] = {{"factor", "Factor that each number is multiplied with.", QUELL_FLOAT, 1,
+                                      offsetof(negate, factor), 0, 10, NULL, 0, 0}};
 static const negate defaults = {1};
 
 static int32_t run(const void* instance, const void* resource, const quell_tile* tile, quell_error* error) {
