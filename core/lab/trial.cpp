@@ -285,7 +285,13 @@ std::unique_ptr<FrameSource> Trial::open(const std::vector<std::string>& roles, 
     for (const auto& half : halves) part.roles[half] = half;
     part.sparse.assign(reference_frames_.begin(), reference_frames_.end());
   }
-  return with_mean_of_halves(std::make_unique<JoinedSource>(std::move(parts)));
+  auto source = with_mean_of_halves(std::make_unique<JoinedSource>(std::move(parts)));
+  // Graphs repair their inputs and say so; what judges them must not be made up.
+  std::vector<std::string> judging;
+  for (const auto& [role, type] : source->roles())
+    if (is_reference(role)) judging.push_back(role);
+  source->refuse_non_finite(judging);
+  return source;
 }
 
 std::string Trial::identity(const std::optional<StudySeeds>& seeds, std::size_t seed) const {

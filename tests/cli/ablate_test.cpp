@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <regex>
@@ -259,11 +260,14 @@ TEST_F(Ablate, RunsEverySequenceWithEverySeed) {
   EXPECT_NE(of_seed["3"], of_seed["7"]);
   // By sequence, and over all: 2 seeds of 2 and 3 frames.
   for (const auto& s : r["summary"])
-    if (s["metric"] == "mse") EXPECT_EQ(s["frames"], s["sequence"] == "room" ? 4 : s["sequence"] == "cut" ? 6 : 10);
+    if (s["metric"] == "mse") {
+      EXPECT_EQ(s["frames"], s["sequence"] == "room" ? 4 : s["sequence"] == "cut" ? 6 : 10);
+    }
   // Flicker has no number where history begins: frame 14, and the cut before 16.
   for (const auto& row : r["rows"])
-    if (row["metric"] == "flicker" && row["sequence"] == "cut")
+    if (row["metric"] == "flicker" && row["sequence"] == "cut") {
       EXPECT_EQ(row["value"].is_null(), row["frame"] == 14 || row["frame"] == 16) << row;
+    }
   for (const auto& image : r["images"])
     EXPECT_TRUE(fs::exists(path("out/" + image["file"].get<std::string>()))) << image;
 }
@@ -301,11 +305,25 @@ TEST_F(Ablate, LeavesOutFramesWithoutAReference) {
     const bool there = frame == 2 || frame == 4 || frame == 5;
     if (row["metric"] == "mse") {
       EXPECT_EQ(row["value"].is_null(), !there) << row;
-      if (there) EXPECT_EQ(row["value"], 0.0625);
+      if (there) {
+        EXPECT_EQ(row["value"], 0.0625);
+      }
     } else {
       EXPECT_EQ(row["value"].is_null(), frame != 5) << row;
     }
   }
+}
+
+TEST_F(Ablate, AReferenceThatIsNotFiniteEndsTheStudy) {
+  for (int f = 1; f <= 3; ++f) write_color(fmt::format("color_{}.exr", f), 9, 5, 0.5f);
+  for (int f = 1; f <= 3; ++f) write_color(fmt::format("truth_{}.exr", f), 9, 5, f == 3 ? NAN : 0.25f);
+  write("shot.json", R"({ "quell_sequence": 1, "frames": "1-3",
+    "inputs": { "color": { "file": "color_@.exr" } }, "reference": { "file": "truth_@.exr" } })");
+  write("study.json", R"({ "quell_study": 1, "graph": "unfiltered", "sequences": ["shot.json"], "metrics": ["mse"] })");
+  const auto r = quell({"ablate", "study.json", "-o", "out", "--quiet"});
+  EXPECT_EQ(r.exit, 3);
+  EXPECT_NE(r.err.find("the reference of 'shot': frame 3: "), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("is not finite: pixel (0, 0) holds nan in channel"), std::string::npos) << r.err;
 }
 
 }  // namespace
