@@ -23,17 +23,12 @@ namespace {
 
 struct AblateArguments {
   PluginOptions plugins;
-  std::string study, output = "ablation", references, progress = "auto";
-  bool resume = false, restart = false, images = false, maps = false, quiet = false, check = false;
+  std::string study, output = "ablation", references;
+  bool resume = false, restart = false, images = false, maps = false, check = false;
   int threads = 0;
   double max_memory = 0;  // GiB
   SimdOption simd;
-
-  ProgressStyle style() const {
-    if (quiet) return ProgressStyle::none;
-    if (progress == "json") return ProgressStyle::json;
-    return progress == "none" ? ProgressStyle::none : ProgressStyle::automatic;
-  }
+  ProgressOption progress;
 };
 
 // What an earlier run left is gone on with, or goes, but only when that was asked for.
@@ -86,12 +81,12 @@ int run(const AblateArguments& a) {
   options.simd = simd_in_use();
   options.metadata = {{"Software", "quell " QUELL_VERSION}, {"quell:study", study->name}};
   options.say = [&](const std::string& line) {
-    if (!a.quiet) fmt::print(stderr, "{}\n", line);
+    if (!a.progress.quiet) fmt::print(stderr, "{}\n", line);
   };
   write_variants(*study, trials->front(), lab, folder / "variants");
   Ablation ablation;
   try {
-    ProgressPrinter progress(a.style());
+    ProgressPrinter progress(a.progress.style());
     options.progress = [&](const Progress& p) { progress(p); };
     ablation = run_study(*study, *trials, lab, options);
   } catch (const Error& e) {
@@ -109,7 +104,7 @@ int run(const AblateArguments& a) {
   write_file((folder / "results.json").string(), results_json(ablation.results));
   write_report_html((folder / "report.html").string(),
                     study_report(*study, trials->front(), ablation.results, timings, folder));
-  if (!a.quiet) {
+  if (!a.progress.quiet) {
     print_saving(ablation);
     fmt::print(stderr, "{}\n{}\n", (folder / "table.md").string(), (folder / "report.html").string());
   }
@@ -149,13 +144,7 @@ void add_ablate(CLI::App& app, int& exit) {
       ->check(CLI::Range(0.0, 1e6))
       ->group("Tuning");
   a->simd.add_to(*sub);
-  sub->add_option("--progress", a->progress,
-                  "On stderr: a line that renews itself where that is a terminal (auto), a JSON object a frame, or "
-                  "nothing.")
-      ->check(one_of({"auto", "json", "none"}))
-      ->type_name("")
-      ->capture_default_str();
-  sub->add_flag("--quiet", a->quiet, "Prints errors and warnings only.");
+  a->progress.add_to(*sub);
   a->plugins.add_to(*sub);
   sub->footer(
       "Examples:\n"

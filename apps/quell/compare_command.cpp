@@ -23,15 +23,9 @@ struct CompareArguments {
   PluginOptions plugins;
   ComparisonRequest request;
   std::vector<std::string> pictures, metrics, fail;
-  std::string json, csv, progress = "auto";
-  bool quiet = false;
+  std::string json, csv;
   SimdOption simd;
-
-  ProgressStyle style() const {
-    if (quiet) return ProgressStyle::none;
-    if (progress == "json") return ProgressStyle::json;
-    return progress == "none" ? ProgressStyle::none : ProgressStyle::automatic;
-  }
+  ProgressOption progress;
 };
 
 std::vector<std::string> split_names(const std::vector<std::string>& lists) {
@@ -85,12 +79,12 @@ int compare(CompareArguments& a) {
   if (!a.csv.empty() && a.csv != "-") check_writable(a.csv);
 
   Commander commander(a.plugins);
-  ProgressPrinter progress(a.style());
+  ProgressPrinter progress(a.progress.style());
   const auto results = run_comparison(commander, a.request, [&](const Progress& p) { progress(p); });
   if (const int code = commander.report(); code || !results) return code ? code : int(Exit::input);
   if (!a.json.empty()) write_text(a.json, results_json(*results));
   if (!a.csv.empty()) write_text(a.csv, results_csv(*results));
-  if (!a.quiet && a.json != "-" && a.csv != "-") fmt::print("{}", comparison_text(*results));
+  if (!a.progress.quiet && a.json != "-" && a.csv != "-") fmt::print("{}", comparison_text(*results));
   return check(*results, thresholds);
 }
 
@@ -139,11 +133,7 @@ void add_compare(CLI::App& app, int& exit) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   a->simd.add_to(*sub);
-  sub->add_option("--progress", a->progress, "On stderr: a line (auto), a JSON object a frame, or nothing.")
-      ->check(one_of({"auto", "json", "none"}))
-      ->type_name("")
-      ->capture_default_str();
-  sub->add_flag("--quiet", a->quiet, "Prints errors, warnings and failures only.");
+  a->progress.add_to(*sub);
   a->plugins.add_to(*sub);
   sub->footer(
       "Examples:\n"

@@ -1,6 +1,8 @@
 // Progress of a run on stderr.
 #include "apps/quell/progress.h"
 
+#include "apps/quell/options.h"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -15,6 +17,22 @@ std::string duration_text(double seconds) {
   if (s < 60) return fmt::format("{} s", s);
   if (s < 3600) return fmt::format("{} min {} s", s / 60, s % 60);
   return fmt::format("{} h {} min", s / 3600, s / 60 % 60);
+}
+
+void ProgressOption::add_to(CLI::App& app) {
+  app.add_option("--progress", wanted,
+                 "On stderr: a line that renews itself where that is a terminal (auto), a JSON object a frame, or "
+                 "nothing.")
+      ->check(one_of({"auto", "json", "none"}))
+      ->type_name("")
+      ->capture_default_str();
+  app.add_flag("--quiet", quiet, "Prints errors, warnings and failures only.");
+}
+
+ProgressStyle ProgressOption::style() const {
+  if (quiet) return ProgressStyle::none;
+  if (wanted == "json") return ProgressStyle::json;
+  return wanted == "none" ? ProgressStyle::none : ProgressStyle::automatic;
 }
 
 ProgressPrinter::ProgressPrinter(ProgressStyle style) : style_(style) {

@@ -3,12 +3,22 @@
 
 #include "core/run/executor.h"
 
+#include <CLI/CLI.hpp>
+
 #include <chrono>
 #include <string>
 
 namespace quell {
 
 enum class ProgressStyle { automatic, terminal, json, none };
+
+// --progress and --quiet.
+struct ProgressOption {
+  std::string wanted = "auto";
+  bool quiet = false;
+  void add_to(CLI::App&);
+  ProgressStyle style() const;
+};
 
 class ProgressPrinter {
  public:

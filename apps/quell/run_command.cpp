@@ -27,18 +27,13 @@ struct RunArguments {
   GraphOptions graph;
   SequenceOptions sequence;
   std::vector<std::string> output;
-  std::string compression = "zip", progress = "auto", save_state, load_state, report, trace;
+  std::string compression = "zip", save_state, load_state, report, trace;
   PreviewOptions preview;
-  bool full = false, quiet = false, times = false;
+  bool full = false, times = false;
   int threads = 0, band_rows = 0;
   double max_memory = 0;  // GiB
   SimdOption simd;
-
-  ProgressStyle style() const {
-    if (quiet) return ProgressStyle::none;
-    if (progress == "json") return ProgressStyle::json;
-    return progress == "none" ? ProgressStyle::none : ProgressStyle::automatic;
-  }
+  ProgressOption progress;
 };
 
 WriteOptions write_options(const RunArguments& a) {
@@ -108,7 +103,7 @@ int run(const RunArguments& a) {
   if (!a.trace.empty()) options.trace = &trace;
   RunReport report;
   try {
-    ProgressPrinter progress(a.style());
+    ProgressPrinter progress(a.progress.style());
     options.progress = [&](const Progress& p) { progress(p); };
     report = run_graph(*graph, *frames, sink, options);
   } catch (const Error& e) {
@@ -120,7 +115,7 @@ int run(const RunArguments& a) {
   if (report.wanted_bytes)
     fmt::print(stderr, "warning: {} of {} frames in flight: all would take {}, more than --max-memory\n",
                report.frames_in_flight, Overlap{}.frames_in_flight(), size_text(report.wanted_bytes));
-  if (!a.quiet && a.style() != ProgressStyle::json) {
+  if (!a.progress.quiet && a.progress.style() != ProgressStyle::json) {
     fmt::print(stderr, "{}", summary_text(report));
     for (std::size_t i = 0; i < sink.patterns().size(); ++i)
       if (graph->outputs[i].type != QUELL_VALUE)
@@ -174,13 +169,7 @@ void add_run(CLI::App& app, int& exit) {
       ->group("Chunks");
   sub->add_option("--load-state", a->load_state, "Goes on from a saved history.")->type_name("FILE")->group("Chunks");
   a->simd.add_to(*sub);
-  sub->add_option("--progress", a->progress,
-                  "On stderr: a line that renews itself where that is a terminal (auto), a JSON object a frame, or "
-                  "nothing.")
-      ->check(one_of({"auto", "json", "none"}))
-      ->type_name("")
-      ->capture_default_str();
-  sub->add_flag("--quiet", a->quiet, "Prints errors and warnings only.");
+  a->progress.add_to(*sub);
   sub->add_flag("--times", a->times, "Prints the time of each node and the memory.");
   sub->add_option("--report", a->report, "Writes times, memory and frames as JSON; - is stdout.")->type_name("FILE");
   sub->add_option("--trace", a->trace, "Writes what ran when, for chrome://tracing or Perfetto.")->type_name("FILE");
