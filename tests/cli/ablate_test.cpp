@@ -300,7 +300,8 @@ TEST_F(Ablate, LeavesOutFramesWithoutAReference) {
   write("study.json", R"({ "quell_study": 1, "graph": "unfiltered", "sequences": ["shot.json"],
     "metrics": ["mse", "./late.json"], "warm_up": 0 })");
   ablate("out");
-  for (const auto& row : results("out")["rows"]) {
+  const auto r = results("out");
+  for (const auto& row : r["rows"]) {
     const int frame = row["frame"];
     const bool there = frame == 2 || frame == 4 || frame == 5;
     if (row["metric"] == "mse") {
