@@ -81,7 +81,7 @@ std::vector<Table> tables(const Results& r, const std::vector<double>& cost_ms) 
     }
   }
   // The table over all sequences is the one to read first.
-  if (r.sequences.size() > 1) std::ranges::rotate(all, all.end() - 1);
+  if (r.sequences.size() > 1) std::rotate(all.begin(), all.end() - 1, all.end());
   return all;
 }
 
