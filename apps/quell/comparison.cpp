@@ -26,8 +26,6 @@ namespace {
 
 constexpr const char* kUsual[] = {"psnr_unbiased", "relmse", "psnr_pu", "ssim", "flip", "flicker"};
 
-bool is_reference(std::string_view role) { return role.starts_with("reference"); }
-
 // A metric, and what of a frame it needs.
 struct Judge {
   Metric metric;

@@ -47,6 +47,14 @@ std::string value(const Json& j) {
 
 }  // namespace
 
+Json edits_of(const Json& object) {
+  Json edits;
+  edits.kind = Json::Kind::object, edits.position = object.position;
+  for (const auto& m : object.members)
+    if (m.key == "set" || m.key == "swap" || m.key == "wire" || m.key == "bypass") edits.members.push_back(m);
+  return edits;
+}
+
 std::string edits_text(const Json& edits) { return to_json(edits).dump(); }
 
 std::string run_command(const Study& study, const StudyVariant& variant) {

@@ -7,6 +7,9 @@
 
 namespace quell {
 
+// The short forms among an object's members: {"set": …, "bypass": …}.
+Json edits_of(const Json& object);
+
 // As JSON on one line: {"set":{"alpha":0.1}}.
 std::string edits_text(const Json&);
 

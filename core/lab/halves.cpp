@@ -10,13 +10,10 @@ namespace quell {
 
 namespace {
 
-constexpr const char* kReference = "reference";
-const std::string kHalves[] = {"reference_a", "reference_b"};
-
 class MeanOfHalves : public FrameSource {
  public:
   explicit MeanOfHalves(std::unique_ptr<FrameSource> source) : source_(std::move(source)), roles_(source_->roles()) {
-    roles_[kReference] = roles_.at(kHalves[0]);
+    roles_[std::string(kReference)] = roles_.at(std::string(kReferenceHalves[0]));
   }
 
   const std::vector<std::int64_t>& frames() const override { return source_->frames(); }
@@ -26,13 +23,14 @@ class MeanOfHalves : public FrameSource {
   std::map<std::string, Repairs> repairs() const override { return source_->repairs(); }
   void refuse_non_finite(std::span<const std::string> roles) override {
     std::vector<std::string> theirs(roles.begin(), roles.end());
-    if (std::erase(theirs, kReference)) theirs.insert(theirs.end(), std::begin(kHalves), std::end(kHalves));
+    if (std::erase(theirs, kReference))
+      theirs.insert(theirs.end(), std::begin(kReferenceHalves), std::end(kReferenceHalves));
     source_->refuse_non_finite(theirs);
   }
 
   std::vector<quell_shape> shapes(std::int64_t frame, std::span<const std::string> roles) override {
     std::vector<std::string> theirs(roles.begin(), roles.end());
-    std::ranges::replace(theirs, kReference, kHalves[0]);
+    std::ranges::replace(theirs, kReference, std::string(kReferenceHalves[0]));
     return source_->shapes(frame, theirs);
   }
 
@@ -47,14 +45,14 @@ class MeanOfHalves : public FrameSource {
     Image own[2];
     quell_image half[2];
     for (int i = 0; i < 2; ++i) {
-      const auto at = std::ranges::find(names, kHalves[i]) - names.begin();
+      const auto at = std::ranges::find(names, kReferenceHalves[i]) - names.begin();
       if (at < std::ssize(names)) {
         half[i] = images[std::size_t(at)];
         continue;
       }
       own[i] = Image(mean.width, mean.height, mean.channels);
       half[i] = own[i].view();
-      names.push_back(kHalves[i]), images.push_back(half[i]);
+      names.emplace_back(kReferenceHalves[i]), images.push_back(half[i]);
     }
     source_->read(frame, names, images);
     for (int c = 0; c < mean.channels; ++c)
@@ -75,7 +73,8 @@ class MeanOfHalves : public FrameSource {
 
 std::unique_ptr<FrameSource> with_mean_of_halves(std::unique_ptr<FrameSource> source) {
   const auto& roles = source->roles();
-  if (roles.contains(kReference) || !roles.contains(kHalves[0]) || !roles.contains(kHalves[1])) return source;
+  const auto has = [&](std::string_view role) { return roles.contains(std::string(role)); };
+  if (has(kReference) || !has(kReferenceHalves[0]) || !has(kReferenceHalves[1])) return source;
   return std::make_unique<MeanOfHalves>(std::move(source));
 }
 

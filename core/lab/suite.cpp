@@ -1,6 +1,7 @@
 // The keys of a suite, each checked where it stands.
 #include "core/lab/suite.h"
 
+#include "core/lab/edits.h"
 #include "core/lab/variants.h"
 #include "core/sequence/document.h"
 #include "core/sequence/frame_range.h"
@@ -155,12 +156,7 @@ class SuiteParser {
     if (!json.find("sequence")) return std::nullopt;
     auto parsed = parse_study(study, suite_.file, graphs_, diagnostics_);
     if (!parsed) return parsed;
-    Json edits;
-    edits.kind = Json::Kind::object, edits.position = json.position;
-    for (const char* key : {"set", "swap", "wire", "bypass"})
-      for (const auto& m : json.members)
-        if (m.key == key) edits.members.push_back(m);
-    parsed->variants.front().edits = std::move(edits);
+    parsed->variants.front().edits = edits_of(json);
     parsed->variants.front().name = t.name;
     parsed->variants.front().where = where;
     parsed->variants.front().position = t.position;

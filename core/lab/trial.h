@@ -1,6 +1,7 @@
 // A study on one of its sequences: every graph and metric loaded for what that sequence provides.
 #pragma once
 
+#include "core/lab/halves.h"
 #include "core/lab/metric.h"
 #include "core/lab/study.h"
 #include "core/sequence/frame_source.h"
@@ -18,14 +19,6 @@
 #include <vector>
 
 namespace quell {
-
-// What variants are judged by: the whole of a reference, or two halves that know nothing of each other.
-inline constexpr std::string_view kReference = "reference";
-inline constexpr std::string_view kReferenceHalves[] = {"reference_a", "reference_b"};
-
-inline bool is_reference(std::string_view role) {
-  return role == kReference || role == kReferenceHalves[0] || role == kReferenceHalves[1];
-}
 
 // What a study is run with.
 struct Laboratory {

@@ -1,6 +1,7 @@
 // The keys of a tuning file, each checked where it stands.
 #include "core/lab/tuning.h"
 
+#include "core/lab/edits.h"
 #include "core/lab/threshold.h"
 #include "core/sequence/document.h"
 
@@ -169,11 +170,7 @@ class TuningParser {
     add("metrics", std::move(metrics));
     auto parsed = parse_study(study, tuning_.file, graphs_, diagnostics_);
     if (!parsed) return parsed;
-    Json edits;
-    edits.kind = Json::Kind::object, edits.position = json.position;
-    for (const auto& m : json.members)
-      if (m.key == "set" || m.key == "swap" || m.key == "wire" || m.key == "bypass") edits.members.push_back(m);
-    parsed->variants.front().edits = std::move(edits);
+    parsed->variants.front().edits = edits_of(json);
     return parsed;
   }
 
