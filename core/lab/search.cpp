@@ -1,6 +1,8 @@
 // A search by NLopt over the unit cube that stands for the ranges.
 #include "core/lab/search.h"
 
+#include "core/lab/range.h"
+
 #include <nlopt.h>
 
 #include <algorithm>
@@ -21,7 +23,7 @@ struct Search {
 
   double parameter(std::size_t i, double unit) const {
     const auto& r = ranges[i];
-    const double x = r.log ? r.from * std::pow(r.to / r.from, unit) : r.from + (r.to - r.from) * unit;
+    const double x = in_range(r.from, r.to, r.log, unit);
     return std::clamp(r.integer ? std::round(x) : x, r.from, r.to);
   }
   double unit(std::size_t i) const {

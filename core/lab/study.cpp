@@ -111,7 +111,13 @@ class StudyParser {
     const Json* j = member(json, key, Json::Kind::list, "", diagnostics_);
     if (!json.find(key)) error(json.position, "", fmt::format("a study needs \"{}\": {}", key, what));
     if (j && j->items.empty()) error(j->position, key, fmt::format("is empty; it lists {}", what));
-    return j;
+    return j && is_short(*j, key) ? j : nullptr;
+  }
+
+  bool is_short(const Json& list, const std::string& path) {
+    if (list.items.size() <= kMaxListed) return true;
+    error(list.position, path, fmt::format("lists {}; the most are {}", list.items.size(), kMaxListed));
+    return false;
   }
 
   void sequences(const Json& json) {
@@ -194,7 +200,7 @@ class StudyParser {
     const Json* values = member(*j, "values", Json::Kind::list, "seeds", diagnostics_);
     if (!j->find("values") || (values && values->items.empty()))
       error(values ? values->position : j->position, "seeds", "needs \"values\": the seeds to run with");
-    if (!values) return;
+    if (!values || !is_short(*values, "seeds.values")) return;
     for (std::size_t i = 0; i < values->items.size(); ++i) {
       const Json& v = values->items[i];
       const std::string where = fmt::format("seeds.values[{}]", i);

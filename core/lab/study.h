@@ -55,7 +55,9 @@ struct Study {
   int warm_up = 4;  // frames after a beginning that enter no summary
 };
 
+// More is a mistake, and is refused before it takes anybody's time.
 inline constexpr std::size_t kMaxVariants = 1000;
+inline constexpr std::size_t kMaxListed = 1000;  // sequences, metrics, seeds, tests of a suite, conditions of a test
 
 struct StudyRequest {
   std::string path;              // a file, or an installed study when it has neither a slash nor ".json"

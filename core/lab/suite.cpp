@@ -55,7 +55,9 @@ class SuiteParser {
     const Json* tests = member(*json, "tests", Json::Kind::object, "", diagnostics_);
     if (!json->find("tests") || (tests && tests->members.empty()))
       error(json->position, "tests", "a suite needs \"tests\": at least one, by name");
-    if (tests)
+    if (tests && tests->members.size() > kMaxListed)
+      error(tests->position, "tests", fmt::format("are {}; the most are {}", tests->members.size(), kMaxListed));
+    else if (tests)
       for (const auto& m : tests->members) test(m);
     if (diagnostics_.errors() != before) return std::nullopt;
     return std::move(suite_);
@@ -92,6 +94,9 @@ class SuiteParser {
   void conditions(const Json& json, const std::string& where, SuiteTest& t) {
     const Json* list = member(json, "fail", Json::Kind::list, where, diagnostics_);
     if (!list) return;
+    if (list->items.size() > kMaxListed)
+      return error(list->position, where + ".fail",
+                   fmt::format("lists {}; the most are {}", list->items.size(), kMaxListed));
     for (std::size_t i = 0; i < list->items.size(); ++i) {
       const Json& item = list->items[i];
       const std::string path = fmt::format("{}.fail[{}]", where, i);

@@ -3,6 +3,7 @@
 
 #include "core/lab/digest.h"
 #include "core/lab/group_run.h"
+#include "core/lab/range.h"
 #include "core/lab/summary.h"
 #include "core/lab/threshold.h"
 #include "core/report/error.h"
@@ -21,8 +22,8 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// What a file would say, so that what was tried is what is written: six digits.
-double written(double x, bool integer) { return integer ? std::round(x) : std::stod(fmt::format("{:.6g}", x)); }
+// As it stands in what is written.
+double written(double x, bool integer) { return integer ? std::round(x) : six_digits(x); }
 
 class Collect : public FrameSink {
  public:

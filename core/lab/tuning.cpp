@@ -2,6 +2,7 @@
 #include "core/lab/tuning.h"
 
 #include "core/lab/edits.h"
+#include "core/lab/range.h"
 #include "core/lab/threshold.h"
 #include "core/sequence/document.h"
 
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 namespace quell {
@@ -17,6 +19,8 @@ namespace quell {
 namespace fs = std::filesystem;
 
 namespace {
+
+bool whole(double x) { return x == std::round(x) && std::abs(x) <= std::numeric_limits<int>::max(); }
 
 class TuningParser {
  public:
@@ -83,7 +87,9 @@ class TuningParser {
     if (!json.find("parameters") || (all && all->members.empty()))
       error(json.position, "parameters",
             R"(there are none to tune; as in "parameters": {"alpha": {"from": 0.02, "to": 0.5}})");
-    if (all)
+    if (all && all->members.size() > kMaxTuned)
+      error(all->position, "parameters", fmt::format("are {}; the most are {}", all->members.size(), kMaxTuned));
+    else if (all)
       for (const auto& m : all->members) parameter(m);
   }
 
@@ -107,10 +113,12 @@ class TuningParser {
     p.range.from = *from, p.range.to = *to;
     if (*from >= *to)
       return error(m.value.position, path, fmt::format("its range is empty: from {} to {}", *from, *to));
-    if (p.range.log && *from <= 0)
-      return error(m.value.position, path, fmt::format("a log scale begins above 0, not at {}", *from));
-    const double middle = p.range.log ? std::sqrt(*from * *to) : (*from + *to) / 2;
-    p.range.start = number(m.value, "start", path).value_or(middle);
+    if (const auto why = problem_of_range(*from, *to, p.range.log); !why.empty())
+      return error(m.value.position, path, why);
+    if (p.range.integer && !(whole(*from) && whole(*to)))
+      return error(m.value.position, path,
+                   fmt::format("a range of whole numbers has such for ends, not {} and {}", *from, *to));
+    p.range.start = number(m.value, "start", path).value_or(in_range(*from, *to, p.range.log, 0.5));
     if (p.range.start < *from || p.range.start > *to)
       error(m.value.find("start")->position, path + ".start",
             fmt::format("{} is not between {} and {}", p.range.start, *from, *to));

@@ -20,6 +20,8 @@ struct TunedParameter {
   TextPosition position;
 };
 
+inline constexpr std::size_t kMaxTuned = 100;  // parameters; of many fewer the search still finds its way
+
 struct Tuning {
   std::string file, name, about;
   std::string text;               // of the file

@@ -1,6 +1,7 @@
 // What a study leaves to be written out: one variant a value of a sweep, a node left out, a level fed back.
 #include "core/lab/variants.h"
 
+#include "core/lab/range.h"
 #include "core/sequence/document.h"
 
 #include <fmt/format.h>
@@ -56,7 +57,7 @@ std::string as_name(std::string text) {
 Json number_at(TextPosition position, double value) {
   Json json;
   json.position = position;
-  json.number = std::stod(fmt::format("{:.6g}", value));
+  json.number = six_digits(value);
   json.kind =
       json.number == std::floor(json.number) && std::abs(json.number) < 1e15 ? Json::Kind::integer : Json::Kind::number;
   if (json.is(Json::Kind::integer)) json.integer = std::int64_t(json.number);
@@ -93,14 +94,16 @@ class Expander {
   }
 
   StudyVariant* add(std::string name, std::string about, Json edits, std::string where) {
+    if (tried_++ >= kMaxVariants) {
+      if (tried_ == kMaxVariants + 1)
+        error(edits.position, where, fmt::format("there are more than {} variants", kMaxVariants));
+      return nullptr;
+    }
     if (const auto why = problem_of_name(name); !why.empty()) error(edits.position, where, why);
     const auto same = std::ranges::find(variants_, name, &StudyVariant::name);
     if (same != variants_.end())
       error(edits.position, where, fmt::format("two variants are called '{}'", name),
             {fmt::format("the other is {} ({})", same->where, diagnostics_.sources.place(same->position))});
-    if (variants_.size() == kMaxVariants)
-      error(edits.position, where, fmt::format("there are more than {} variants", kMaxVariants));
-    if (variants_.size() >= kMaxVariants) return nullptr;
     const auto position = edits.position;
     variants_.push_back(
         {std::move(name), std::move(about), graph_file(graph_), std::move(edits), false, position, std::move(where)});
@@ -235,15 +238,14 @@ class Expander {
     }
     const bool log = scale && scale->text == "log";
     if (!from || !to || !steps) return {};
-    if (log && (from->number <= 0 || to->number <= 0)) {
-      error(json.position, where, "a range on a log scale lies above 0");
+    if (const auto why = problem_of_range(from->number, to->number, log); !why.empty()) {
+      error(json.position, where, why);
       return {};
     }
     std::vector<Json> values;
     for (std::int64_t i = 0; i < steps->integer; ++i) {
       const double t = double(i) / double(steps->integer - 1);
-      values.push_back(number_at(json.position, log ? from->number * std::pow(to->number / from->number, t)
-                                                    : from->number + (to->number - from->number) * t));
+      values.push_back(number_at(json.position, in_range(from->number, to->number, log, t)));
     }
     return values;
   }
@@ -295,6 +297,7 @@ class Expander {
   std::filesystem::path folder_;
   Diagnostics& diagnostics_;
   std::vector<StudyVariant> variants_;
+  std::size_t tried_ = 0;  // good ones or not, so that errors end too
 };
 
 }  // namespace

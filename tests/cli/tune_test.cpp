@@ -96,7 +96,11 @@ TEST_F(Tune, SaysWhatIsWrong) {
   tuning(R"("stops": { "from": 3, "to": 3 })", "rmse", 5);
   expect("tune.json:5:28: error: parameters.stops: its range is empty: from 3 to 3");
   tuning(R"("stops": { "from": 0, "to": 3, "scale": "log" })", "rmse", 5);
-  expect("a log scale begins above 0, not at 0");
+  expect("a range on a log scale lies above 0, not at 0");
+  tuning(R"("stops": { "from": -1e200, "to": 3 })", "rmse", 5);
+  expect("parameters.stops: a range lies within ±3.4e+38, not at 1e+200");
+  tuning(R"("stops": { "from": 0.2, "to": 0.8, "integer": true })", "rmse", 5);
+  expect("parameters.stops: a range of whole numbers has such for ends, not 0.2 and 0.8");
   tuning(R"("stops": { "from": 0, "to": 3, "start": 4 })", "rmse", 5);
   expect("parameters.stops.start: 4 is not between 0 and 3");
   tuning(R"("stop": { "from": 0, "to": 3 })", "rmse", 5);

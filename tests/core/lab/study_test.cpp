@@ -52,6 +52,11 @@ TEST(Study, SpacesRangesEvenlyOrByFactors) {
   EXPECT_EQ(edits_text(thirds[3].edits), R"({"set":{"a":0.666667}})");
 }
 
+TEST(Study, StepsThroughTheSmallestNumbers) {
+  EXPECT_EQ(names_of(variants_of(R"("sweeps": { "a": { "from": 0, "to": 1e-310, "steps": 3 } })")),
+            (Names{"base", "a=0", "a=5e-311", "a=1e-310"}));
+}
+
 TEST(Study, LeavesOutAndFeedsBack) {
   const auto variants =
       variants_of(R"("leave_one_out": ["x", ["y", "z.w"]], "baselines": ["gaussian", "other/flat.json"],
