@@ -3,8 +3,9 @@
 //
 // Input: a document, then edits as on the command line, each after a NUL and a letter for its kind. Node types are
 // those of the folder QUELL_TEST_PLUGINS, where there are some.
+#include "tests/fuzz/registry.h"
+
 #include "core/graph/load.h"
-#include "core/plugin/registry.h"
 #include "core/report/error.h"
 #include "core/run/plan.h"
 
@@ -19,16 +20,6 @@
 namespace {
 
 using quell::Edit;
-
-quell::Registry& registry() {
-  static quell::Registry& made = [&]() -> quell::Registry& {
-    const char* folder = std::getenv("QUELL_TEST_PLUGINS");
-    auto* all = new quell::Registry({folder ? folder : "."});
-    all->all();
-    return *all;
-  }();
-  return made;
-}
 
 std::vector<Edit> edits_of(std::string_view text) {
   std::vector<Edit> edits;
@@ -70,7 +61,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (end != text.npos) request.edits = edits_of(text.substr(end + 1));
   quell::Diagnostics diagnostics;
   quell::GraphInfo info;
-  const auto graph = quell::load_graph(request, registry(), diagnostics, &info);
+  const auto graph = quell::load_graph(request, quell::fuzz::registry(), diagnostics, &info);
   if (graph.has_value() != diagnostics.ok()) std::abort();
   if (!graph && diagnostics.format().empty()) std::abort();
   if (!graph) return 0;
