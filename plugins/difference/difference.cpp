@@ -9,7 +9,7 @@
 
 namespace {
 
-enum class Measure : std::int32_t { squared, absolute, plain, relative, relative_mean, mrse, smape };
+enum class Measure : std::int32_t { squared, absolute, plain, relative, relative_mean, mrse, smape, mape };
 
 struct Difference {
   quell::In<quell::Any> image, reference, reference_b;
@@ -32,8 +32,8 @@ struct Difference {
     d.param(measure, "measure",
             "squared: (X − Y)², or (X − A)(X − B), which may be negative. absolute: |X − Y|. signed: X − Y. relative: "
             "squared / (Y² + epsilon). relative_mean: the same with Y's mean over channels below. mrse: squared / (|Y| "
-            "+ epsilon)². smape: |X − Y| / (|X| + |Y| + epsilon).",
-            {"squared", "absolute", "signed", "relative", "relative_mean", "mrse", "smape"});
+            "+ epsilon)². smape: |X − Y| / (|X| + |Y| + epsilon). mape: |X − Y| / (|Y| + epsilon).",
+            {"squared", "absolute", "signed", "relative", "relative_mean", "mrse", "smape", "mape"});
     d.param(
          epsilon, "epsilon",
          "Keeps relative measures finite in the dark, in units of their divisor. 0: where all are 0, so is the error.")
@@ -100,6 +100,8 @@ struct Difference {
         return ratio(square, (std::abs(y) + eps) * (std::abs(y) + eps));
       case Measure::smape:
         return ratio(std::abs(x - y), std::abs(x) + std::abs(y) + eps);
+      case Measure::mape:
+        return ratio(std::abs(x - y), std::abs(y) + eps);
     }
     return 0;
   }

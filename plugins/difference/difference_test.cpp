@@ -20,6 +20,7 @@ double error(const std::string& measure, double x, double a, double b, double me
   if (measure == "relative") return square / (y * y + epsilon);
   if (measure == "relative_mean") return square / (mean * mean + epsilon);
   if (measure == "mrse") return square / std::pow(std::abs(y) + epsilon, 2);
+  if (measure == "mape") return std::abs(x - y) / (std::abs(y) + epsilon);
   return std::abs(x - y) / (std::abs(x) + std::abs(y) + epsilon);
 }
 
@@ -27,7 +28,7 @@ class Difference : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Difference, IsItsFormula) {
   const std::string measure = GetParam();
-  const bool squares = measure != "absolute" && measure != "signed" && measure != "smape";
+  const bool squares = measure != "absolute" && measure != "signed" && measure != "smape" && measure != "mape";
   for (const auto& [width, height] : {std::pair{1, 1}, {1, 9}, {37, 11}})
     for (const int channels : {1, 3, 5})
       for (const bool halves : {false, true}) {
@@ -64,7 +65,7 @@ TEST_P(Difference, IsNoneToItself) {
 
 INSTANTIATE_TEST_SUITE_P(measures, Difference,
                          ::testing::Values("squared", "absolute", "signed", "relative", "relative_mean", "mrse",
-                                           "smape"));
+                                           "smape", "mape"));
 
 TEST(DifferenceMeasures, OfRatiosDoNotDependOnExposure) {
   const auto x = noise_image(31, 8, 3, 1), y = noise_image(31, 8, 3, 2);
@@ -72,7 +73,7 @@ TEST(DifferenceMeasures, OfRatiosDoNotDependOnExposure) {
   for (int c = 0; c < 3; ++c)
     for (int v = 0; v < 8; ++v)
       for (int u = 0; u < 31; ++u) x8.at(c, u, v) *= 8, y8.at(c, u, v) *= 8;
-  for (const char* measure : {"relative", "relative_mean", "mrse", "smape"}) {
+  for (const char* measure : {"relative", "relative_mean", "mrse", "smape", "mape"}) {
     Node one("difference"), eight("difference");
     const auto map = one.set("measure", measure).set("epsilon", 0.0f).in("image", x).in("reference", y).run("map");
     const auto map8 = eight.set("measure", measure).set("epsilon", 0.0f).in("image", x8).in("reference", y8).run("map");

@@ -77,6 +77,9 @@ TEST(ShippedMetrics, ArePointwiseFormulas) {
               mean_of(x, y, [](double a, double b) { return (a - b) * (a - b) / std::pow(b + 0.01, 2); }), 2e-2);
   EXPECT_NEAR(judge("smape", x, y).value,
               mean_of(x, y, [](double a, double b) { return std::abs(a - b) / (a + b + 0.01); }), 1e-6);
+  EXPECT_NEAR(judge("mae", x, y).value, mean_of(x, y, [](double a, double b) { return std::abs(a - b); }), 1e-6);
+  EXPECT_NEAR(judge("mape", x, y).value, mean_of(x, y, [](double a, double b) { return std::abs(a - b) / (b + 0.01); }),
+              1e-4);
   EXPECT_EQ(judge("mse", x, y).pixels, kWidth * kHeight);
 }
 
@@ -158,12 +161,39 @@ TEST(ShippedMetrics, GivePublishedFlip) {
   EXPECT_NEAR(judge("flip", black, white).value, 0.9673798, 1e-5);
 }
 
+// Quantiles of the map, each pixel as heavy as its error.
+TEST(ShippedMetrics, PoolFlip) {
+  for (const std::string name : {"flip", "hdr_flip"}) {
+    const auto map = judge(name, pattern(true), pattern(false)).map;
+    std::vector<double> errors;
+    double all = 0;
+    for (int y = 0; y < map.height(); ++y)
+      for (int x = 0; x < map.width(); ++x) errors.push_back(map.at(0, x, y)), all += map.at(0, x, y);
+    std::ranges::sort(errors);
+    const auto weighted = [&](double share) {
+      double sum = 0;
+      return *std::ranges::find_if(errors, [&](double e) { return (sum += e) > share * all; });
+    };
+    const auto pooled = [&](const std::string& how, std::vector<Edit> edits = {}) {
+      const auto verdict = judge(name + how, pattern(true), pattern(false), std::move(edits));
+      EXPECT_EQ(verdict.pixels, map.width() * map.height());
+      return verdict.value;
+    };
+    EXPECT_EQ(pooled("_max"), errors.back());
+    EXPECT_EQ(pooled("_median"), weighted(0.5));
+    EXPECT_EQ(pooled("_median", {{Edit::Kind::set, "share=0.25"}}), weighted(0.25));
+    EXPECT_NE(weighted(0.5), errors[errors.size() / 2]);
+  }
+}
+
 // 0.2 and 0.4 as an sRGB display shows them.
 TEST(ShippedMetrics, GivePublishedSsim) {
   const auto decoded = [](double v) { return float(std::pow((v + 0.055) / 1.055, 2.4)); };
   const auto x = constant_image(200, 170, 3, decoded(0.2)), y = constant_image(200, 170, 3, decoded(0.4));
   EXPECT_NEAR(judge("ssim", x, y).value, 0.80009995, 2e-6);
   EXPECT_EQ(judge("ssim", x, y).pixels, 190 * 160);
+  EXPECT_NEAR(judge("ssim_luma", x, y).value, 0.80009995, 2e-6);
+  EXPECT_EQ(judge("ssim_luma", x, y).pixels, 190 * 160);
   // All contrasts of constants are 1, so the coarsest scale alone says something.
   EXPECT_NEAR(judge("ms_ssim", x, y).value, std::pow(0.80009995, 0.1333), 2e-6);
   EXPECT_EQ(judge("ms_ssim", x, y).pixels, 3 * 1);
@@ -195,6 +225,46 @@ TEST(ShippedMetrics, OfPuDoNotDependOnExposure) {
   EXPECT_NEAR(judge("psnr_pu", x, y).value, judge("psnr_pu", x16, y16).value, 1e-3);
 }
 
+// By whole windows in double. Luma of encoded values, not of light.
+TEST(ShippedMetrics, SsimOfLumaIsThatOfTheGreyPicture) {
+  constexpr int kSize = 24;
+  const auto x = noise_image(kSize, kSize, 3, 25, 0, 1.2f), y = noise_image(kSize, kSize, 3, 26, 0, 1.2f);
+  const auto srgb = [](double v) {
+    v = std::min(v, 1.0);
+    return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+  };
+  const auto luma = [&](const Image& i, int u, int v) {
+    return 0.299 * srgb(i.at(0, u, v)) + 0.587 * srgb(i.at(1, u, v)) + 0.114 * srgb(i.at(2, u, v));
+  };
+  double sum = 0;
+  for (int cy = 5; cy < kSize - 5; ++cy)
+    for (int cx = 5; cx < kSize - 5; ++cx) {
+      double w = 0, p = 0, q = 0, pp = 0, qq = 0, pq = 0;
+      for (int v = cy - 5; v <= cy + 5; ++v)
+        for (int u = cx - 5; u <= cx + 5; ++u) {
+          const double g = std::exp(-((u - cx) * (u - cx) + (v - cy) * (v - cy)) / 4.5), a = luma(x, u, v),
+                       b = luma(y, u, v);
+          w += g, p += g * a, q += g * b, pp += g * a * a, qq += g * b * b, pq += g * a * b;
+        }
+      p /= w, q /= w;
+      const double sp = pp / w - p * p, sq = qq / w - q * q, spq = pq / w - p * q;
+      sum += (2 * p * q + 1e-4) / (p * p + q * q + 1e-4) * (2 * spq + 9e-4) / (sp + sq + 9e-4);
+    }
+  const auto verdict = judge("ssim_luma", x, y);
+  // The display's curve is one of floats, good to 1e-6 or so.
+  EXPECT_NEAR(verdict.value, sum / ((kSize - 10) * (kSize - 10)), 1e-5);
+  EXPECT_GT(std::abs(verdict.value - judge("ssim", x, y).value), 1e-3);
+}
+
+TEST(ShippedMetrics, SsimOfLumaDoesNotSeeHue) {
+  const auto y = constant_image(30, 30, 3, 1);
+  auto red = y.copy(), green = y.copy();
+  for (int v = 0; v < 30; ++v)
+    for (int u = 0; u < 30; ++u) red.at(0, u, v) = 0, green.at(0, u, v) = green.at(1, u, v) = 0;
+  EXPECT_LT(judge("ssim", red, y).value, judge("ssim_luma", red, y).value) << "0.299 of three thirds is missing";
+  EXPECT_GT(judge("ssim", green, y).value, judge("ssim_luma", green, y).value) << "0.886 of three thirds";
+}
+
 // Each metric that knows a perfect number gives it to an image that is its reference.
 TEST(ShippedMetrics, ArePerfectOfTheReferenceItself) {
   const auto graphs = std::filesystem::path(QUELL_TEST_SOURCE) / "graphs";
@@ -221,7 +291,8 @@ TEST(ShippedMetrics, ArePerfectOfTheReferenceItself) {
 
 TEST(ShippedMetrics, AreSymmetricWhereTheyShouldBe) {
   const auto x = noise_image(180, 170, 3, 33), y = noise_image(180, 170, 3, 34);
-  for (const char* name : {"mse", "rmse", "smape", "psnr_ldr", "ssim", "ms_ssim", "flip"}) {
+  for (const char* name :
+       {"mse", "rmse", "mae", "smape", "psnr_ldr", "ssim", "ssim_luma", "ms_ssim", "flip", "flip_median"}) {
     const double xy = judge(name, x, y).value, yx = judge(name, y, x).value;
     EXPECT_NEAR(xy, yx, 1e-6 * std::max(1.0, std::abs(xy))) << name;
   }
@@ -246,7 +317,8 @@ std::vector<Verdict> judge_film(const std::string& metric, const std::vector<Ima
   return judge(metric, frames);
 }
 
-constexpr const char* kTemporal[] = {"temporal_mse", "excess_flicker", "tderiv_l1", "tpsnr", "flicker"};
+constexpr const char* kTemporal[] = {"temporal_mse", "temporal_error", "excess_flicker",
+                                     "tderiv_l1",    "tpsnr",          "flicker"};
 
 TEST(TemporalMetrics, SeeNothingInAStillPicture) {
   std::vector<Image> still, other;
@@ -291,6 +363,14 @@ TEST(TemporalMetrics, MeasureNoise) {
   }
   // The mean of 196608 squares whose own standard deviation is about as large as they are: half a percent.
   EXPECT_NEAR(judge_film("temporal_mse", noisy, clean, 0, 0).at(1).value, 2 * variance, 0.01 * variance);
+  // Of a difference of two uniform numbers the mean size is a third of their range, and luminance has one channel here.
+  std::vector<Image> grey;
+  for (const auto& image : noisy) {
+    auto& g = grey.emplace_back(image.copy());
+    for (int c = 1; c < 3; ++c)
+      for (int y = 0; y < g.height(); ++y) std::copy_n(g.row(0, y), g.width(), g.row(c, y));
+  }
+  EXPECT_NEAR(judge_film("temporal_error", grey, clean, 0, 0).at(1).value, 2 * half_width / 3, 0.01 * half_width);
   EXPECT_NEAR(judge_film("excess_flicker", noisy, clean, 0, 0).at(1).value, 2 * variance, 0.01 * variance);
   EXPECT_NEAR(judge_film("excess_flicker", clean, noisy, 0, 0).at(1).value, -2 * variance, 0.01 * variance);
   EXPECT_EQ(judge_film("excess_flicker", noisy, noisy, 0, 0).at(1).value, 0);
