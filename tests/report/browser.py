@@ -24,9 +24,9 @@ def require():
 
 
 class Browser:
-    """One window; `driver` is Selenium's."""
+    """One window; `driver` is Selenium's. What is on its screen is for look() to say."""
 
-    def __init__(self, width=1280, height=900, scheme="light"):
+    def __init__(self):
         self.profile = tempfile.TemporaryDirectory(prefix="quell_report_")
         options = webdriver.ChromeOptions()
         options.binary_location = shutil.which("chromium")
@@ -40,14 +40,26 @@ class Browser:
         # What the browser's own first page asks for is not the report's doing.
         self.driver.get("about:blank")
         self.asked()
-        self.look(width, height, scheme)
 
-    def look(self, width, height, scheme):
-        """A screen of this size in CSS pixels, light or dark."""
+    def look(self, width, height, scheme, touch=False):
+        """A screen of this size in CSS pixels, light or dark; one that is touched has two dots a pixel."""
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                                    {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600})
+                                    {"width": width, "height": height, "deviceScaleFactor": 2 if touch else 1,
+                                     "mobile": width < 600})
+        self.driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": touch, "maxTouchPoints": 5})
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia",
                                     {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
+
+    def touch(self, kind, *points):
+        """touchStart, touchMove, touchEnd or touchCancel: all fingers that are down, as places in CSS pixels."""
+        self.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {
+            "type": kind, "touchPoints": [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]})
+
+    def press(self, key, code):
+        """A key on its way through the window: it goes to whatever has the focus."""
+        for kind in ("rawKeyDown", "keyUp"):
+            self.driver.execute_cdp_cmd("Input.dispatchKeyEvent", {"type": kind, "key": key, "code": key,
+                                                                   "windowsVirtualKeyCode": code})
 
     def said(self):
         """Messages on the console, errors and refusals among them, since the last call."""

@@ -1,4 +1,5 @@
 """The report in a browser, and what it must show."""
+import atexit
 import json
 import math
 import os
@@ -70,27 +71,32 @@ def number_of(text):
 
 
 class PageTest(unittest.TestCase):
-    """One browser for a class; each test begins with a fresh page."""
+    """One browser for all tests, as it starts slowly; each begins with a fresh page on the screen of its class."""
 
-    width, height, scheme = 1280, 900, "light"
+    browser = None
+
+    width, height, scheme, touch = 1280, 900, "light", False
     place = ""  # of the report, in the folder that is tested
 
     @classmethod
     def setUpClass(cls):
         cls.expected = Expected(os.path.join(os.environ["QUELL_TEST_REPORT"], cls.place))
-        cls.browser = Browser(cls.width, cls.height, cls.scheme)
+        if not PageTest.browser:
+            PageTest.browser = Browser()
+            atexit.register(PageTest.browser.close)
         cls.driver = cls.browser.driver
 
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.close()
-
     def setUp(self):
-        self.address = (self.expected.folder / "report.html").as_uri()
+        self.browser.look(self.width, self.height, self.scheme, self.touch)
+        self.open()
+
+    def open(self, address=None):
+        self.address = address or (self.expected.folder / "report.html").as_uri()
         self.driver.get("about:blank")
         self.browser.said(), self.browser.asked()
         self.driver.get(self.address)
-        self.wait(lambda: self.js("return document.documentElement.dataset.ready && document.querySelector('#images').dataset.shown"))
+        self.wait(lambda: self.js("""const images = document.getElementById('images');
+            return document.documentElement.dataset.ready && (images.dataset.shown || !images.querySelector('canvas'))"""))
         self.js("document.documentElement.style.scrollBehavior = 'auto'")
 
     def js(self, script, *arguments):
@@ -107,7 +113,7 @@ class PageTest(unittest.TestCase):
         while not true():
             if time.monotonic() > end:
                 self.fail("what was waited for did not come")
-            time.sleep(0.05)
+            time.sleep(0.02)
 
     def choose(self, section, label, value):
         """Takes an option of the select with this label."""

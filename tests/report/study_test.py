@@ -9,6 +9,7 @@ CELL = re.compile(r"(-?[\d.]+)")
 
 class Study(PageTest):
     place = "study"
+    height = 4000  # all images in view at once
 
     def latex(self):
         """Of each variant the numbers of its row, as they are written."""

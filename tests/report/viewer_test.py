@@ -2,85 +2,22 @@
 import base64
 
 from selenium.webdriver import ActionChains
+from selenium.webdriver.common.actions.action_builder import ActionBuilder
+from selenium.webdriver.common.actions.mouse_button import MouseButton
 from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 from selenium.webdriver.common.keys import Keys
 
-from page import PageTest, srgb_byte
-
-# The colour that a pane shows at the middle of each of its image's pixels, the whole image being in view.
-SAMPLE = """
-function sample(canvas, width, height) {
-  const data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
-  let out = '';
-  for (let y = 0; y < height; ++y) for (let x = 0; x < width; ++x) {
-    const at = 4 * (Math.floor((y + 0.5) * canvas.height / height) * canvas.width + Math.floor((x + 0.5) * canvas.width / width));
-    out += String.fromCharCode(data[at], data[at + 1], data[at + 2]);
-  }
-  return btoa(out);
-}
-"""
-# matplotlib's magma at nine places, straight between.
-MAGMA = [(0, 0, 4), (28, 16, 68), (79, 18, 123), (129, 37, 129), (181, 54, 122), (229, 89, 100), (251, 135, 97),
-         (254, 194, 135), (252, 253, 191)]
-
-
-def magma(share):
-    at = min(1.0, max(0.0, share)) * 8
-    i = min(7, int(at))
-    return [a + (b - a) * (at - i) for a, b in zip(MAGMA[i], MAGMA[i + 1])]
-
-
-class ViewerTest(PageTest):
-    def slide(self, element, value):
-        """Moves a range and waits until its picture is there."""
-        self.js("""const input = document.getElementById(arguments[0]);
-            input.value = arguments[1];
-            input.dispatchEvent(new Event('input'));""", element, value)
-        self.shown()
-
-    def shown(self):
-        # Whatever was asked for last bears the state of all controls once it is drawn.
-        self.wait(lambda: self.js("""const images = document.getElementById('images');
-            const select = (label) => [...images.querySelectorAll('label')].find(
-                (l) => l.firstChild.textContent === label).querySelector('select').value;
-            const frame = images.querySelector('.slide output').textContent;
-            return images.dataset.shown === [select('Sequence'), select('Show'), frame,
-                document.getElementById('exposure').value].join(' ')
-                && Number(document.getElementById('frame').value) === arguments[0].indexOf(Number(frame));""",
-            self.expected.sequences[self.sequence]["frames"]))
-
-    def take(self, sequence, frame_index=0):
-        self.sequence = sequence
-        self.choose("images", "Sequence", sequence)
-        self.slide("frame", frame_index)
-        return self.expected.sequences[sequence]["frames"][frame_index]
-
-    def samples(self, width, height):
-        """Of each pane in view: bytes of all of its image's pixels."""
-        found = self.js(SAMPLE + """return [...document.querySelectorAll('#images figure:not([hidden])')].map(
-            (f) => [f.dataset.subject, sample(f.querySelector('canvas'), arguments[0], arguments[1])])""", width, height)
-        return {subject: base64.b64decode(text) for subject, text in found}
-
-    def image(self, subject, frame):
-        return self.expected.images[subject, self.sequence, frame]
-
-    def wanted(self, image, stops=0.0):
-        size = image.width * image.height
-        bytes_of = {v: srgb_byte(v * 2.0 ** stops) for v in set(image.values)}
-        return bytes(bytes_of[image.values[p * size + i]] for i in range(size) for p in range(3))
-
-    def assert_same(self, got, wanted, slack=0, what=""):
-        self.assertEqual(len(got), len(wanted), what)
-        worst = max((abs(a - b) for a, b in zip(got, wanted)), default=0)
-        self.assertLessEqual(worst, slack, what)
+from page import srgb_byte
+from viewer import SAMPLE, ViewerTest, magma
 
 
 class Decoding(ViewerTest):
     def test_every_image_has_the_right_pixels(self):
         seen = set()
         for sequence, known in self.expected.sequences.items():
-            for i, _ in enumerate(known["frames"]):
-                frame = self.take(sequence, i)
+            self.take(sequence)
+            for i, frame in enumerate(known["frames"]):
+                self.slide("frame", i)
                 for subject, got in self.samples(*known["size"]).items():
                     if (subject, sequence, frame) not in self.expected.images:
                         self.assertEqual(subject, "reference:")
@@ -201,29 +138,7 @@ class Controls(ViewerTest):
         self.assert_same(self.stage()[9:288], gaussian[9:288], 1)
 
     def assert_all_show(self, zoom, x, y):
-        """That every pane shows the part of its image around (x, y), shares of its size, magnified."""
-        shown = self.js("""return [...document.querySelectorAll('#images figure canvas, .stage canvas')].map((canvas) => {
-            const context = canvas.getContext('2d'), out = [];
-            for (let v = 0.05; v < 1; v += 0.1) for (let u = 0.05; u < 1; u += 0.1) out.push([u, v,
-              ...context.getImageData(Math.floor(u * canvas.width), Math.floor(v * canvas.height), 1, 1).data]);
-            const figure = canvas.closest('figure');
-            return [figure ? figure.dataset.subject : 'stage', canvas.width, canvas.height, out];
-          })""")
-        self.assertEqual(len(shown), len(self.expected.variants) + 3)
-        checked = 0
-        for subject, wide, high, points in shown:
-            for u, v, *colour in points:
-                name = ("input:" if u < 0.5 else "image:svgf") if subject == "stage" else subject
-                image = self.image(name, self.frame)
-                # The middle of the dot that was read.
-                across = (x + ((int(u * wide) + 0.5) / wide - 0.5) / zoom) * image.width
-                down = (y + ((int(v * high) + 0.5) / high - 0.5) / zoom) * image.height
-                if min(across % 1, 1 - across % 1, down % 1, 1 - down % 1) < 0.02:
-                    continue  # on the edge between two pixels
-                wanted = [srgb_byte(value) for value in image.at(int(across), int(down))]
-                self.assert_same(colour[:3], wanted, 1, f"{subject} at {u}, {v}, zoom {zoom}")
-                checked += 1
-        self.assertGreater(checked, 900)
+        self.assert_shows_part("#images figure canvas, .stage canvas", zoom, x, y, len(self.expected.variants) + 3)
 
     def test_zoom_is_the_same_everywhere(self):
         tile = self.find("#images figure[data-subject='image:gaussian'] canvas")
@@ -259,6 +174,38 @@ class Controls(ViewerTest):
     def origin(self, canvas):
         return ScrollOrigin.from_element(canvas, x_offset=-200)  # beside the divider
 
+    def test_escape_lets_go_of_a_pane(self):
+        canvas = self.find(".stage canvas")
+        ActionChains(self.driver).move_to_element_with_offset(canvas, -200, 0).click().perform()
+        self.assertNotEqual(self.find("#pixel-x").get_attribute("value"), "")
+        canvas.send_keys(Keys.ESCAPE)
+        self.assertEqual(self.find("#pixel-x").get_attribute("value"), "")
+        self.assertEqual({e.text for e in self.all("#images .value")}, {""})
+        self.assertEqual(self.js("return document.activeElement.tagName"), "BODY")
+
+    def test_only_the_first_button_drags(self):
+        tile = self.find("#images figure[data-subject='image:svgf'] canvas")
+        tile.send_keys("++++")
+        shown = "return arguments[0].toDataURL()"
+        before = self.js(shown, tile)
+        mouse = ActionBuilder(self.driver)
+        mouse.pointer_action.move_to(tile).pointer_down(button=MouseButton.RIGHT).move_by(-60, 0)
+        mouse.pointer_action.pointer_up(button=MouseButton.RIGHT)
+        mouse.perform()
+        self.find(".stage canvas").send_keys(Keys.ESCAPE)  # takes the mark of the pixel away
+        self.assertEqual(self.js(shown, tile), before)
+
+    def test_panes_out_of_view_wait_and_come_in_time(self):
+        self.browser.look(1280, 500, "light")
+        self.open()
+        self.frame = self.take("room", 6)  # has a reference
+        last = "figure[data-subject='reference:'] canvas"
+        self.assertEqual(self.js("return document.querySelector(arguments[0]).width", last), 300)  # nothing drawn yet
+        self.find(".stage canvas").send_keys("++")
+        self.js("document.querySelector(arguments[0]).scrollIntoView()", last)
+        self.wait(lambda: self.js("return document.querySelector(arguments[0]).width", last) != 300)
+        self.assert_shows_part(last, 2, 0.5, 0.5)
+
     def test_dragging_pans(self):
         tile = self.find("#images figure[data-subject='image:svgf'] canvas")
         self.js("arguments[0].scrollIntoView({ block: 'center' })", tile)
@@ -293,6 +240,8 @@ class Controls(ViewerTest):
         self.shown()
         self.assertEqual(slider.get_attribute("value"), "1")
         self.assertIn("+1.0 EV", self.find("#images").text)
+        # Its label is that of the slider, not of the number in it.
+        self.assertEqual(self.js("return [...document.querySelectorAll('.slide input')].map((i) => i.labels.length)"), [1, 1])
         self.assert_same(self.samples(*self.size)["image:svgf"], self.wanted(self.image("image:svgf", self.frame), 1), 1)
 
     def test_frames_by_keys(self):
@@ -302,7 +251,7 @@ class Controls(ViewerTest):
         slider.send_keys(Keys.ARROW_RIGHT)
         self.shown()
         frame = self.expected.sequences["room"]["frames"][1]
-        self.assertEqual(self.find("#images .slide output").text, str(frame))
+        self.assertEqual(self.find("#images .slide b").text, str(frame))
         self.assert_same(self.samples(*self.size)["image:svgf"], self.wanted(self.image("image:svgf", frame)), 1)
 
     def test_scrubbing_ends_at_the_last_frame_asked_for(self):

@@ -12,16 +12,13 @@ export function divider(pane) {
     handle.setAttribute('aria-valuetext', `${Math.round(100 * pane.split)} % before`);
     pane.draw();
   };
-  handle.addEventListener('pointerdown', (event) => {
-    handle.setPointerCapture(event.pointerId);
-    handle.focus();
-    event.preventDefault();
-  });
-  handle.addEventListener('pointermove', (event) => {
-    if (!handle.hasPointerCapture(event.pointerId)) return;
-    const r = pane.canvas.getBoundingClientRect();
-    move((event.clientX - r.left) / r.width);
-  });
+  // Where the handle was taken it stays under the pointer.
+  pane.grab = (target, from) => {
+    if (!handle.contains(target)) return null;
+    handle.focus({ preventScroll: true });
+    const off = from - pane.split;
+    return (to) => move(to - off);
+  };
   handle.addEventListener('keydown', (event) => {
     const step = event.shiftKey ? 0.1 : 0.02;
     const to = { ArrowLeft: pane.split - step, ArrowDown: pane.split - step, ArrowRight: pane.split + step,

@@ -1,18 +1,40 @@
 // A canvas that shows a picture, or two with a divider between them, through the common view.
 import { element } from './element.js';
-import { steer } from './view.js';
 
 export class Pane {
   constructor(view, label) {
     this.view = view;
     this.pictures = [];  // one, or left and right of the divider; undefined where a frame has none
     this.split = 0.5;    // share of the pane that is left of the divider
-    this.canvas = element('canvas', { tabindex: '0', role: 'img', 'aria-label': label });
-    steer(this.canvas, view, (u, v) => this.pixel_at(u, v));
+    this.canvas = element('canvas', { tabindex: '0', role: 'img', 'aria-label': label, 'aria-describedby': 'steering' });
+    this.late = null;    // what is to be done once the pane comes near
     new ResizeObserver(() => this.draw()).observe(this.canvas);
+    this.nearing = new IntersectionObserver((entries) => {
+      if (!entries.at(-1).isIntersecting || !this.late) return;
+      const work = this.late;
+      this.late = null;
+      work();
+    }, { rootMargin: '50%' });
   }
 
   get picture() { return this.pictures.find(Boolean); }
+
+  // Whether it is in view, or would be after scrolling by half a window. A little more than the observer's margin, so
+  // that what it calls near is near here too.
+  get near() {
+    const r = this.canvas.getBoundingClientRect(), more = 0.6 * innerHeight;
+    return r.width > 0 && r.bottom > -more && r.top < innerHeight + more;
+  }
+
+  // Dozens of panes are slow to fill and few of them are looked at, so those far from view wait.
+  when_near(work) {
+    this.late = work;
+    this.nearing.disconnect();
+    this.nearing.observe(this.canvas);  // tells where the pane is now, and when that changes
+  }
+
+  // What the pane will show, before it is decoded: nothing moves when it comes.
+  shape(width, height) { this.canvas.style.aspectRatio = `${width} / ${height}`; }
 
   // The pixel under a place in the pane; null beside the image.
   pixel_at(u, v) {
@@ -26,11 +48,14 @@ export class Pane {
   show(pictures, tone) {
     this.pictures = pictures;
     this.tone = tone;
-    if (this.picture) this.canvas.style.aspectRatio = `${this.picture.width} / ${this.picture.height}`;
     this.draw();
   }
 
   draw() {
+    if (!this.near) {
+      if (!this.late) this.when_near(() => this.draw());
+      return;
+    }
     const density = window.devicePixelRatio || 1;
     const width = Math.round(this.canvas.clientWidth * density), height = Math.round(this.canvas.clientHeight * density);
     if (!width || !height) return;

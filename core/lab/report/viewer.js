@@ -6,6 +6,7 @@ import { Pane } from './pane.js';
 import { Tone, map_colour, picture_of } from './pixels.js';
 import { title_of } from './results.js';
 import { legend, look } from './state.js';
+import { steer } from './steer.js';
 import { View } from './view.js';
 
 // What a pane can show: the input, each variant, the reference. Names of variants cannot clash with these ids.
@@ -39,6 +40,8 @@ export function viewer_section(results, shown) {
     return;
   }
   const view = new View(), stage = new Pane(view, 'Before and after');
+  const stage_root = element('div', { class: 'stage' }, stage.canvas, divider(stage));
+  steer(stage_root, stage);
   const status = element('p', { class: 'visually-hidden', role: 'status' });
   const scale = colour_scale(), grid = element('div', { class: 'grid' });
   let tiles = [], frames = [], turn = 0;
@@ -73,17 +76,25 @@ export function viewer_section(results, shown) {
       [stage, [chosen(before.select.value), chosen(after.select.value)]]];
     // A frame may lack an image, as references are often of a few frames only.
     const decode = (subject) => (entry(subject) ? picture_of(entry(subject)) : undefined);
-    const ready = await Promise.all(wanted.map(async ([pane, list]) => [pane, await Promise.all(list.map(decode))]));
-    if (mine !== turn) return;  // something else is wanted by now
-    for (const [pane, pictures] of ready) pane.show(pictures, now);
+    // All that is in view changes at once.
+    const fill = async (panes) => {
+      const ready = await Promise.all(panes.map(async ([pane, list]) => [pane, await Promise.all(list.map(decode))]));
+      if (mine !== turn) return false;  // something else is wanted by now
+      for (const [pane, pictures] of ready) pane.show(pictures, now);
+      read_out();
+      return true;
+    };
+    const near = wanted.filter(([pane]) => pane.near);
+    for (const one of wanted) if (!near.includes(one)) one[0].when_near(() => fill([one]));
+    if (!await fill(near)) return;
     for (const t of tiles) t.number.textContent = number_of(t.subject);
     frame_text.textContent = String(frame());
+    place_text.textContent = ` ${Number(scrub.value) + 1} of ${frames.length}`;
     stops_text.textContent = `${now.stops > 0 ? '+' : ''}${now.stops.toFixed(1)} EV`;
-    scrub.setAttribute('aria-valuetext', `frame ${frame_text.textContent}`);
+    scrub.setAttribute('aria-valuetext', `frame ${frame()},${place_text.textContent}`);
     exposure.setAttribute('aria-valuetext', stops_text.textContent);
     scale.root.hidden = map() === '';
     scale.set(now);
-    read_out();
     status.textContent = `Frame ${frame()} of ${sequence()} is shown`;
     section.dataset.shown = [sequence(), map(), frame(), exposure.value].join(' ');
   }
@@ -95,14 +106,19 @@ export function viewer_section(results, shown) {
       t.value.textContent = inside ? picture.at(...view.pixel).map(number_text).join('  ') : '';
     }
     zoom_text.textContent = `×${view.zoom.toFixed(view.zoom < 10 ? 1 : 0)}`;
-    if (view.pixel && document.activeElement !== pixel_x && document.activeElement !== pixel_y) {
-      [pixel_x.value, pixel_y.value] = view.pixel;
+    if (document.activeElement !== pixel_x && document.activeElement !== pixel_y) {
+      [pixel_x.value, pixel_y.value] = view.pixel ?? ['', ''];
     }
   }
 
   function make_tiles() {
+    const { width, height } = results.images.find((i) => i.sequence === sequence());
+    stage.shape(width, height);
+    stage_root.style.setProperty('--shape', width / height);
     tiles = subjects(results, sequence()).map((subject) => {
       const pane = new Pane(view, subject.title);
+      pane.shape(width, height);
+      steer(pane.canvas, pane);
       const numbers = element('span', { class: 'note' }), value = element('div', { class: 'value' });
       const place = results.place(subject.variant);
       const root = element('figure', { class: place === undefined ? 'other' : look(place), 'data-subject': subject.id },
@@ -150,13 +166,13 @@ export function viewer_section(results, shown) {
 
   const slider = (label, properties, text, changed) => {
     const input = element('input', { type: 'range', oninput: changed, 'aria-label': label, ...properties });
-    return [input, element('label', { class: 'field slide' }, element('span', {}, label, ' ', text), input)];
+    return [input, element('label', { class: 'field slide' }, element('span', {}, label, ' ', ...[text].flat()), input)];
   };
-  const frame_text = element('output'), stops_text = element('output'), zoom_text = element('output');
+  const frame_text = element('b'), place_text = element('span'), stops_text = element('b'), zoom_text = element('output');
   const pick_sequence = choice('Sequence', sequences.map((s) => [s.name, s.name]), () => { view.read(null); make_tiles(); });
   const pick_show = choice('Show', [['', 'Images']], show_tiles);
   const pick_metric = choice('Number', results.metrics.map((m) => [m.name, title_of(m)]), load);
-  const [scrub, scrub_field] = slider('Frame', { min: 0, max: 0, step: 1, id: 'frame' }, frame_text, load);
+  const [scrub, scrub_field] = slider('Frame', { min: 0, max: 0, step: 1, id: 'frame' }, [frame_text, place_text], load);
   const [exposure, exposure_field] = slider('Exposure', { min: -8, max: 8, step: 0.1, value: 0, id: 'exposure' },
     stops_text, load);
   const before = choice('Before', [], load), after = choice('After', [], load);
@@ -185,13 +201,16 @@ export function viewer_section(results, shown) {
   });
   shown.listen(show_tiles);
   section.append(
-    element('div', { class: 'bar sticky' }, pick_sequence.root, pick_show.root, scrub_field, exposure_field, zoom, pixel),
+    element('div', { class: 'bar controls' }, element('div', { class: 'bar' }, pick_sequence.root, pick_show.root),
+      element('div', { class: 'bar sliders' }, scrub_field, exposure_field, zoom), pixel),
     scale.root,
-    element('p', { class: 'hint' }, 'Click an image, then the wheel or + and − zoom, dragging or arrow keys pan, ',
-      '0 shows all of it; every image follows.'),
+    element('p', { class: 'hint', id: 'steering' },
+      element('span', { class: 'by-mouse' }, 'Click an image, then the wheel or + and − zoom, dragging or arrow keys pan, ',
+        '0 shows all of it, Escape lets go; every image follows.'),
+      element('span', { class: 'by-finger' }, 'Two fingers zoom, then one pans; a tap reads a pixel. Every image follows.')),
     element('h3', {}, 'Before and after'),
     element('div', { class: 'bar' }, before.root, after.root),
-    element('div', { class: 'stage' }, stage.canvas, divider(stage)),
+    stage_root,
     element('h3', {}, 'Side by side'),
     element('div', { class: 'bar' }, pick_metric.root), legend(shown).root, grid, status);
   make_tiles();
