@@ -176,6 +176,15 @@ class Plots(PageTest):
                            ".textContent", variant)
             self.assert_shows(note, self.expected.mean_of_seeds(variant, sequence, "relmse", frame))
 
+    def test_escape_lets_go_of_the_frame(self):
+        plot = self.find("#frames-plot")
+        plot.send_keys(Keys.END)
+        self.assertEqual(self.find("#plots .readout").text, f"Frame {self.expected.sequences['room']['frames'][-1]}")
+        plot.send_keys(Keys.ESCAPE)
+        self.assertIn("arrow keys", self.find("#plots .readout").text)
+        notes = "return [...document.querySelectorAll('#plots .key .note')].map((n) => n.textContent).join('')"
+        self.assertEqual(self.js(notes), "")
+
     def test_numbers_stand_beside_the_plot(self):
         self.choose("plots", "Metric", "flicker")
         self.find("#plots details summary").click()
@@ -211,3 +220,16 @@ class Pareto(PageTest):
                 beaten = any(c <= cost and e <= error and (c, e) != (cost, error) for c, e in place.values())
                 self.assertEqual(points[variant][2], not beaten, f"{variant} by {metric}")
             self.assertTrue(self.find("#pareto-plot .front").get_attribute("d"))
+
+    def test_keys_read_out_the_variants_from_cheap_to_dear(self):
+        plot, read = self.find("#pareto-plot"), []
+        for _ in self.expected.variants:
+            plot.send_keys(Keys.ARROW_RIGHT)
+            read.append(self.find("#pareto .readout").text)
+        cheap = sorted(self.expected.variants, key=self.expected.costs.get)
+        self.assertEqual([self.expected.costs[text.split(":")[0]] for text in read],
+                         [self.expected.costs[v] for v in cheap])
+        name, number = read[-1].split(" in ")[0].split(": ")
+        self.assert_shows(number, self.expected.summary[name, None, "relmse"]["mean"])
+        plot.send_keys(Keys.ESCAPE)
+        self.assertIn("arrow keys", self.find("#pareto .readout").text)

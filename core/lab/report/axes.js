@@ -1,6 +1,17 @@
 // Scales, ticks and the frame of a plot, drawn at the width that there is so that text keeps its size.
 import { drawn } from './element.js';
 
+// The least and the greatest; a plot may have more values than a function takes arguments.
+export function span_of(values) {
+  return values.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
+}
+
+// Whether values are told apart only by their logarithm: positive, and over more than a decade.
+export function wants_log(values) {
+  const [low, high] = span_of(values);
+  return low > 0 && high > 10 * low;
+}
+
 // Round steps of 1, 2 or 5 times a power of ten.
 export function linear_ticks(low, high, count) {
   const span = high - low || Math.abs(high) || 1;
@@ -26,7 +37,7 @@ export function log_ticks(low, high) {
 
 // From values to pixels; `log` is heeded where all values are positive.
 export function scale(values, from, to, log) {
-  let [low, high] = values.length ? [Math.min(...values), Math.max(...values)] : [1, 10];
+  let [low, high] = values.length ? span_of(values) : [1, 10];
   if (log && low > 0) {
     const room = (high / low) ** 0.06 * 1.02;
     [low, high] = [low / room, high * room];

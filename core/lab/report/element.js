@@ -20,6 +20,11 @@ export function drawn(tag, properties = {}, ...children) {
   return fill(document.createElementNS(SVG, tag), properties, children);
 }
 
+// A name that may be broken after what joins its parts, rather than inside a word.
+export function breakable(name) {
+  return name.split(/(?<=[_=,+/:-])(?=[^_=,+/:-])/).flatMap((part, i) => (i ? [element('wbr'), part] : [part]));
+}
+
 // A labelled <select>. `options` are [value, text]; `chosen` is called with the value.
 export function choice(label, options, chosen, value) {
   const select = element('select', { onchange: () => chosen(select.value) },

@@ -13,7 +13,7 @@ const STYLE = `
   .carries-weight { stroke: var(--loss) } .delayed { stroke: var(--link); stroke-dasharray: 6 4 }
   .start { stroke-dasharray: 2 3 }
   .changed rect { fill: var(--mark); stroke: var(--ink); stroke-width: 3 }
-  .changed text { font-weight: bold; fill: var(--mark-ink) }`;
+  .changed text { fill: var(--mark-ink) }`;
 
 function parsed(svg) {
   // Styles inside the drawing would be refused by the page's policy.

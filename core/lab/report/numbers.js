@@ -9,14 +9,16 @@ export function number_text(value) {
   return value.toFixed(Math.max(0, 3 - Math.floor(Math.log10(size))));
 }
 
-// What a value is beside another: a difference where the unit is a logarithm or the other is 0, else a share.
+// What a value is beside another: a share where both are sizes, else, as for logarithms, a difference.
 export function beside(value, other, unit) {
   if (value === null || value === undefined || other === null || other === undefined) return '';
-  const signed = (x, digits) => (x > 0 ? '+' : x < 0 ? '−' : '') + Math.abs(x).toFixed(digits);
-  if (unit === 'dB' || other === 0) return signed(value - other, 2) + (unit ? ` ${unit}` : '');
+  const signed = (x, text) => (x > 0 ? '+' : x < 0 ? '−' : '') + text(Math.abs(x));
+  if (unit === 'dB') return `${signed(value - other, (x) => x.toFixed(2))} dB`;
+  // Estimates without bias may be negative: a share of those says nothing.
+  if (!(value >= 0 && other > 0)) return signed(value - other, number_text) + (unit ? ` ${unit}` : '');
   const percent = (value / other - 1) * 100;
-  if (Math.abs(percent) >= 1000) return `×${number_text(value / other)}`;
-  return `${signed(percent, Math.abs(percent) < 10 ? 1 : 0)} %`;
+  if (percent >= 1000) return `×${number_text(value / other)}`;
+  return `${signed(percent, (x) => x.toFixed(x < 10 ? 1 : 0))} %`;
 }
 
 export function bytes(count) {

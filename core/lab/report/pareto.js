@@ -1,5 +1,6 @@
 // Time against error: which variants no other beats in both.
-import { at_width, axes, scale } from './axes.js';
+import { at_width, axes, scale, span_of, wants_log } from './axes.js';
+import { cursor } from './cursor.js';
 import { choice, drawn, element } from './element.js';
 import { number_text } from './numbers.js';
 import { arrow, better, title_of } from './results.js';
@@ -34,23 +35,28 @@ export function pareto_section(results, shown) {
     section.append(element('p', {}, 'Nothing was timed, so there is no time to plot against the error.'));
     return;
   }
-  const frame = element('div', { class: 'plot', id: 'pareto-plot' });
-  const list = element('p', { class: 'readout' });
+  const frame = element('div', { class: 'plot', id: 'pareto-plot', tabindex: '0', role: 'group',
+    'aria-label': 'Plot of time against error; arrow keys move from cheap variants to dear ones' });
+  const readout = element('p', { class: 'readout', 'aria-live': 'polite' }), list = element('p', { class: 'readout' });
+  let points = [], ring = null;
+  const metric_shown = () => results.metric(pick_metric.select.value);
+  const unit_of = (metric) => (metric.unit ? ` ${metric.unit}` : '');
+  const said_of = (p, metric) => `${p.name}: ${number_text(p.error)}${unit_of(metric)} in ${number_text(p.cost)} ms`;
 
   function draw(width) {
-    const metric = results.metric(pick_metric.select.value);
+    const metric = metric_shown();
     const height = Math.round(Math.min(440, Math.max(280, width * 0.5)));
     const box = { left: 58, top: 26, right: width - 14, bottom: height - 44 };
-    const points = [];
+    points = [];
     for (const name of shown.visible()) {
       const cost = results.cost_of(name);
       const error = results.summary_of(name, pick_sequence.select.value, metric.name)?.mean ?? null;
       if (cost !== null && error !== null) points.push({ name, cost, error });
     }
-    const spread = (values) => Math.min(...values) > 0 && Math.max(...values) > 10 * Math.min(...values);
+    points.sort((a, b) => a.cost - b.cost);
     const costs = points.map((p) => p.cost), errors = points.map((p) => p.error);
-    const x = scale(costs, box.left, box.right, spread(costs));
-    const y = scale(errors, box.bottom, box.top, spread(errors));
+    const x = scale(costs, box.left, box.right, wants_log(costs));
+    const y = scale(errors, box.bottom, box.top, wants_log(errors));
     for (const p of points) [p.x, p.y] = [x.at(p.cost), y.at(p.error)];
     const svg = drawn('svg', { width, height, viewBox: `0 0 ${width} ${height}`, role: 'img',
       'aria-label': `${title_of(metric)} against time` });
@@ -66,20 +72,40 @@ export function pareto_section(results, shown) {
     for (const p of [...front, ...points.filter((q) => !on_front.has(q.name))]) {
       const group = drawn('g', { class: `point ${look(results.place(p.name))}${on_front.has(p.name) ? ' best' : ''}`,
         'data-variant': p.name, 'data-cost': p.cost, 'data-error': p.error },
-      drawn('title', {}, `${p.name}: ${number_text(p.error)}${unit} in ${number_text(p.cost)} ms`),
+      drawn('title', {}, said_of(p, metric)),
       drawn('circle', { cx: p.x, cy: p.y, r: on_front.has(p.name) ? 6 : 4.5 }));
       const label = place_label(taken, p, { ...box, right: width });
       if (label) group.append(drawn('text', label, p.name));
       svg.append(group);
     }
+    ring = drawn('circle', { class: 'cursor', r: 10 });
+    svg.append(ring);
     frame.replaceChildren(svg);
+    read.at = null;
+    read_out();
     list.textContent = `On the front: ${front.map((p) => p.name).join(', ') || 'nothing'}.`;
   }
 
+  function read_out() {
+    const p = points[read.at];
+    ring.toggleAttribute('hidden', !p);
+    ring.setAttribute('cx', p?.x ?? 0);
+    ring.setAttribute('cy', p?.y ?? 0);
+    readout.textContent = p ? said_of(p, metric_shown()) : 'Point at a variant, or use the arrow keys, to read its numbers.';
+  }
+
+  const read = cursor(frame, {
+    nearest(x, y) {
+      const distances = points.map((p) => Math.hypot(p.x - x, p.y - y));
+      return distances.indexOf(span_of(distances)[0]);
+    },
+    count: () => points.length,
+    moved: read_out,
+  });
   const redraw = at_width(frame, draw);
   const pick_sequence = choice('Sequence', results.sequence_choices, redraw);
   const pick_metric = choice('Metric', results.metrics.map((m) => [m.name, title_of(m)]), redraw);
   shown.listen(redraw);
-  section.append(element('div', { class: 'bar' }, pick_sequence.root, pick_metric.root), frame, list,
+  section.append(element('div', { class: 'bar' }, pick_sequence.root, pick_metric.root), frame, readout, list,
     legend(shown).root);
 }

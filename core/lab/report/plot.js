@@ -1,19 +1,21 @@
 // A metric over the frames of a sequence, a line a variant.
-import { at_width, axes, scale } from './axes.js';
-import { choice, drawn, element } from './element.js';
+import { at_width, axes, scale, span_of, wants_log } from './axes.js';
+import { cursor } from './cursor.js';
+import { breakable, choice, drawn, element } from './element.js';
 import { number_text } from './numbers.js';
 import { arrow, title_of } from './results.js';
 import { legend, look } from './state.js';
 
-// Breaks the line where there is no number; a lone number is still a dot.
+// Breaks the line where there is no number; a lone number is still a dot, as wide as the stroke.
 function path_of(points) {
-  let path = '', down = false;
-  for (const p of points) {
-    if (p) path += `${down ? 'L' : 'M'}${p[0].toFixed(1)},${p[1].toFixed(1)}`;
-    down = Boolean(p);
-  }
-  return path;
+  return points.map((p, i) => {
+    if (!p) return '';
+    const lone = !points[i - 1] && !points[i + 1];
+    return `${points[i - 1] ? 'L' : 'M'}${p[0].toFixed(1)},${p[1].toFixed(1)}${lone ? 'h0' : ''}`;
+  }).join('');
 }
+
+const APART = 6;  // CSS pixels between frames that have a dot each; closer together dots hide the lines
 
 function lines(results, shown, sequence, metric) {
   return shown.visible().map((name) => ({ name,
@@ -26,10 +28,9 @@ export function plots_section(results, shown) {
   const frame = element('div', { class: 'plot', id: 'frames-plot', tabindex: '0', role: 'group',
     'aria-label': 'Plot over the frames; arrow keys move through the frames' });
   const readout = element('p', { class: 'readout', 'aria-live': 'polite' });
-  let cursor = null;  // index of the frame that is read out
   const sequence = () => results.sequences.find((s) => s.name === pick_sequence.select.value);
   const metric = () => results.metric(pick_metric.select.value);
-  let x = null;
+  let x = null, mark = null;
 
   function draw(width) {
     const height = Math.round(Math.min(420, Math.max(260, width * 0.45)));
@@ -52,71 +53,70 @@ export function plots_section(results, shown) {
     }
     const unit = metric().unit ? ` [${metric().unit}]` : '';
     svg.append(axes(box, x, y, 'frame', `${title_of(metric())}${unit} ${arrow(metric())}`));
-    if (warm - box.left > 54) {
-      svg.append(drawn('text', { class: 'warm-up', x: box.left + 5, y: box.top + 14 }, 'warm-up'));
-    }
-    if (cursor !== null) {
-      const at = x.at(frames[cursor]);
-      svg.append(drawn('line', { class: 'cursor', x1: at, x2: at, y1: box.top, y2: box.bottom }));
-    }
+    mark = drawn('line', { class: 'cursor', y1: box.top, y2: box.bottom });
+    svg.append(mark);
+    const dots = x.at(frames.at(-1)) - x.at(frames[0]) >= APART * (frames.length - 1);
     for (const line of all) {
       const points = line.values.map((v, i) => (v === null ? null : [x.at(frames[i]), y.at(v)]));
       const group = drawn('g', { class: `series ${look(results.place(line.name))}`, 'data-variant': line.name },
         drawn('path', { d: path_of(points) }));
-      points.forEach((p, i) => p && group.append(drawn('circle', { cx: p[0].toFixed(1), cy: p[1].toFixed(1), r: 2.6,
+      points.forEach((p, i) => dots && p && group.append(drawn('circle', { cx: p[0].toFixed(1), cy: p[1].toFixed(1), r: 2.6,
         'data-frame': frames[i], 'data-value': line.values[i] },
       drawn('title', {}, `${line.name}, frame ${frames[i]}: ${number_text(line.values[i])}`))));
       svg.append(group);
     }
+    if (warm - box.left > 54) {
+      svg.append(drawn('text', { class: 'warm-up', x: box.left + 5, y: box.top + 14 }, 'warm-up'));
+    }
     frame.replaceChildren(svg);
-    keys.update();
-    readout.textContent = cursor === null ? 'Point at a frame, or use the arrow keys, to read the numbers in the legend.'
-      : `Frame ${frames[cursor]}`;
+    read_out();
     table.replaceChildren();
     if (numbers.open) fill_table();
+  }
+
+  // Only this changes with the cursor: to draw all anew would lag behind a pointer where there are many variants.
+  function read_out() {
+    const at = read.at === null ? null : sequence().frames[read.at];
+    mark.toggleAttribute('hidden', at === null);
+    mark.setAttribute('x1', x.at(at ?? 0));
+    mark.setAttribute('x2', x.at(at ?? 0));
+    keys.update();
+    readout.textContent = at === null ? 'Point at a frame, or use the arrow keys, to read the numbers in the legend.'
+      : `Frame ${at}`;
   }
 
   function fill_table() {
     const names = shown.visible();
     table.replaceChildren(element('table', {},
       element('thead', {}, element('tr', {}, element('th', { scope: 'col' }, 'Frame'),
-        names.map((n) => element('th', { scope: 'col' }, n)))),
+        names.map((n) => element('th', { scope: 'col' }, breakable(n))))),
       element('tbody', {}, sequence().frames.map((f) => element('tr', {}, element('th', { scope: 'row' }, f),
         names.map((n) => element('td', {}, number_text(results.value_at(n, sequence().name, metric().name, f)))))))));
   }
 
+  const read = cursor(frame, {
+    nearest(at) {
+      const distances = sequence().frames.map((f) => Math.abs(x.at(f) - at));
+      return distances.indexOf(span_of(distances)[0]);
+    },
+    count: () => (x ? sequence().frames.length : 0),
+    moved: () => read_out(),
+  });
   const redraw = at_width(frame, draw);
-  const changed = () => { cursor = null; log.checked = wants_log(); redraw(); };
+  const changed = () => { read.at = null; log.checked = in_decades(); redraw(); };
   const pick_sequence = choice('Sequence', results.sequences.map((s) => [s.name, s.name]), changed);
   const pick_metric = choice('Metric', results.metrics.map((m) => [m.name, title_of(m)]), changed);
   const log = element('input', { type: 'checkbox', onchange: redraw });
-  // Errors that span more than a decade are told apart only by their logarithm.
-  function wants_log() {
-    const values = lines(results, shown, sequence(), metric()).flatMap((l) => l.values.filter((v) => v !== null));
-    return values.length > 0 && Math.min(...values) > 0 && Math.max(...values) > 10 * Math.min(...values);
+  function in_decades() {
+    return wants_log(lines(results, shown, sequence(), metric()).flatMap((l) => l.values.filter((v) => v !== null)));
   }
-  const keys = legend(shown, (name) => (cursor === null ? ''
-    : number_text(results.value_at(name, sequence().name, metric().name, sequence().frames[cursor]))));
+  const keys = legend(shown, (name) => (read.at === null ? ''
+    : number_text(results.value_at(name, sequence().name, metric().name, sequence().frames[read.at]))));
   const table = element('div', { class: 'scroll', tabindex: '0', role: 'region', 'aria-label': 'Numbers of the plot' });
   const numbers = element('details', { ontoggle: () => { if (numbers.open) fill_table(); } },
     element('summary', {}, 'Numbers of this plot'), table);
-  log.checked = wants_log();
+  log.checked = in_decades();
 
-  frame.addEventListener('pointermove', (event) => {
-    if (!x) return;
-    const at = event.clientX - frame.getBoundingClientRect().left;
-    const distances = sequence().frames.map((f) => Math.abs(x.at(f) - at));
-    const nearest = distances.indexOf(Math.min(...distances));
-    if (nearest !== cursor) { cursor = nearest; redraw(); }
-  });
-  frame.addEventListener('keydown', (event) => {
-    const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-    if (!step) return;
-    event.preventDefault();
-    const last = sequence().frames.length - 1;
-    cursor = cursor === null ? (step > 0 ? 0 : last) : Math.max(0, Math.min(last, cursor + step));
-    redraw();
-  });
   shown.listen(redraw);
   section.append(element('div', { class: 'bar' }, pick_sequence.root, pick_metric.root,
     element('label', { class: 'check' }, log, 'logarithmic')), frame, readout, keys.root, numbers);

@@ -53,6 +53,11 @@ export function title_of(metric) {
   return metric.title ?? metric.name;
 }
 
+// The address of a variant's part of the page.
+export function link_to(variant) {
+  return `#variant-${encodeURIComponent(variant)}`;
+}
+
 // Whether `a` is better than `b`.
 export function better(metric, a, b) {
   return metric.better === 'higher' ? a > b : a < b;

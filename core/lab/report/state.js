@@ -46,6 +46,6 @@ export function legend(shown, note = () => '') {
   const all = element('button', { type: 'button', class: 'plain', onclick: () => shown.show_all(true) }, 'All');
   const none = element('button', { type: 'button', class: 'plain', onclick: () => shown.show_all(false) }, 'None');
   const root = element('div', { class: 'legend', role: 'group', 'aria-label': 'Variants shown' },
-    buttons.map((b) => b.button), all, none);
+    element('span', {}, all, none), buttons.map((b) => b.button));
   return { root, update };
 }

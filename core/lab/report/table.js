@@ -1,6 +1,8 @@
 // Tables that sort by any column, by click or key, and mark what is best.
 import { element } from './element.js';
 
+const FITS = 15;  // rows; longer tables scroll by themselves, under their heads
+
 // columns: { name, title, hint, first: 'ascending' | 'descending' }; rows: { head, key, cells: [{ value, content,
 // best }] }, a cell a column. Values are numbers or texts; null goes last either way.
 export function sortable_table(caption, columns, rows) {
@@ -37,6 +39,6 @@ export function sortable_table(caption, columns, rows) {
   body.append(...rows.map((row) => row.root));
   // The frame scrolls where the table is wider than the screen, also by keys; the caption stays.
   return element('div', {}, element('p', { class: 'hint' }, caption),
-    element('div', { class: 'scroll', tabindex: '0', role: 'region', 'aria-label': caption },
+    element('div', { class: rows.length > FITS ? 'scroll tall' : 'scroll', tabindex: '0', role: 'region', 'aria-label': caption },
       element('table', { 'aria-label': caption }, element('thead', {}, element('tr', {}, heads)), body)));
 }

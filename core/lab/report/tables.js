@@ -1,13 +1,14 @@
 // The tables of the report: all metrics of a sequence, one metric over the sequences.
-import { choice, element } from './element.js';
+import { breakable, choice, element } from './element.js';
 import { beside, number_text } from './numbers.js';
-import { arrow, better, title_of } from './results.js';
+import { arrow, better, link_to, title_of } from './results.js';
 import { sortable_table } from './table.js';
 
 const STATISTICS = [['mean', 'Mean'], ['median', 'Median'], ['p95', '95th percentile']];
 
 function variant_link(variant) {
-  return element('a', { href: `#variant-${encodeURIComponent(variant.name)}`, title: variant.about || undefined }, variant.name);
+  return element('a', { href: link_to(variant.name), title: variant.about || undefined },
+    breakable(variant.name));
 }
 
 // Whether the interval of the difference holds 0, where the results have one: it is against the first variant, frame by

@@ -1,6 +1,7 @@
 // Each variant: what it changes, its graph with the changes marked, and the command that makes it again.
-import { element } from './element.js';
+import { breakable, element } from './element.js';
 import { graph_view } from './graph.js';
+import { link_to } from './results.js';
 import { look } from './state.js';
 
 // "set history.alpha = 0.1" and the like, a line an edit.
@@ -55,21 +56,20 @@ function variant_details(results, variant, place) {
     if (graph.changed.length) view.go(graph.changed[0]);
   };
   const details = element('details', { id: `variant-${variant.name}`, class: look(place), ontoggle: fill },
-    element('summary', {}, element('span', { class: 'swatch', 'aria-hidden': 'true' }), element('strong', {}, variant.name),
+    element('summary', {}, element('span', { class: 'swatch', 'aria-hidden': 'true' }), element('strong', {}, breakable(variant.name)),
       variant.about ? element('span', { class: 'note' }, variant.about) : null), inside);
   return details;
 }
 
 export function variants_section(results) {
-  document.getElementById('variants').append(
-    ...results.variants.map((variant, place) => variant_details(results, variant, place)));
+  const list = results.variants.map((variant, place) => variant_details(results, variant, place));
+  document.getElementById('variants').append(...list);
   // A link to a variant opens it.
   const open = () => {
-    const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
-    if (target instanceof HTMLDetailsElement) {
-      target.open = true;
-      target.scrollIntoView();
-    }
+    const details = list[results.variants.findIndex((v) => link_to(v.name) === location.hash)];
+    if (!details) return;
+    details.open = true;
+    details.scrollIntoView();
   };
   addEventListener('hashchange', open);
   open();
