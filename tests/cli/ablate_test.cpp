@@ -273,7 +273,7 @@ TEST_F(Ablate, RunsEverySequenceWithEverySeed) {
 }
 
 TEST_F(Ablate, FindsNothingWrongWithTheStudiesThatShip) {
-  for (const char* name : {"svgf", "svgf_parameters", "games202"}) {
+  for (const char* name : {"svgf", "svgf_parameters", "games202", "lag"}) {
     const auto r = quell({"ablate", name, "--check"});
     EXPECT_EQ(r.exit, 0) << r.err;
     EXPECT_EQ(r.err, "");
@@ -281,7 +281,8 @@ TEST_F(Ablate, FindsNothingWrongWithTheStudiesThatShip) {
   const auto r = quell({"ablate", "svfg", "--check"});
   EXPECT_EQ(r.exit, 2);
   EXPECT_NE(
-      r.err.find("there is no study 'svfg'\n  installed are: games202, svgf, svgf_parameters. Did you mean 'svgf'?"),
+      r.err.find(
+          "there is no study 'svfg'\n  installed are: games202, lag, svgf, svgf_parameters. Did you mean 'svgf'?"),
       std::string::npos)
       << r.err;
 }
