@@ -11,13 +11,6 @@ namespace quell {
 
 namespace {
 
-template <class T>
-std::vector<std::string> names_of(const std::vector<T>& list) {
-  std::vector<std::string> names;
-  for (const auto& item : list) names.push_back(item.name);
-  return names;
-}
-
 // A change on its way to the scope that it is addressed to.
 struct Addressed {
   const Change* change;

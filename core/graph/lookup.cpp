@@ -11,13 +11,6 @@ namespace quell {
 
 namespace {
 
-template <class T>
-std::vector<std::string> names_of(const T& list) {
-  std::vector<std::string> names;
-  for (const auto& item : list) names.emplace_back(item.name);
-  return names;
-}
-
 std::string written(const Reference& r, std::size_t parts) {
   return join_path({r.parts.begin(), r.parts.begin() + std::ptrdiff_t(parts)});
 }

@@ -12,12 +12,6 @@ namespace quell {
 
 namespace {
 
-std::vector<std::string> type_names() {
-  std::vector<std::string> names;
-  for (const auto& t : kTypes) names.emplace_back(t.name);
-  return names;
-}
-
 class Parser {
  public:
   explicit Parser(Faults& faults) : faults_(faults) {}
@@ -145,7 +139,7 @@ class Parser {
     } else if (const auto* info = type_info(std::string_view(name))) {
       in.type = info->type;
     } else {
-      auto names = type_names();
+      auto names = names_of(kTypes);
       faults_.error(m.value.position, path, fmt::format("there is no type '{}'", name),
                     {fmt::format("types: {}", fmt::join(names, ", ")), meant(name, names)});
       return;
@@ -267,7 +261,7 @@ class Parser {
     if (const auto* as = json.find("as")) {
       const auto* info = as->is(Json::Kind::text) ? type_info(std::string_view(as->text)) : nullptr;
       if (!info) {
-        auto names = type_names();
+        auto names = names_of(kTypes);
         faults_.error(as->position, path + ".as",
                       as->is(Json::Kind::text) ? fmt::format("there is no type '{}'", as->text)
                                                : fmt::format("a type must be text, not {}", shown(*as)),

@@ -16,13 +16,6 @@ namespace quell {
 
 namespace {
 
-template <class T>
-std::vector<std::string> names_of(const T& list) {
-  std::vector<std::string> names;
-  for (const auto& item : list) names.emplace_back(item.name);
-  return names;
-}
-
 class Resolver {
  public:
   Resolver(Expansion& expansion, Registry& registry, const Library& library, Faults& faults)

@@ -190,30 +190,22 @@ void place(Json& json, TextPosition position) {
 // A value as typed into a shell: JSON when it is that, else text.
 Json value_of(const std::string& text, TextPosition position) {
   Diagnostics quiet;
-  Json value;
-  if (auto json = parse_json("", text, quiet))
-    value = std::move(*json);
-  else
-    value.kind = Json::Kind::text, value.text = text;
-  place(value, position);
-  return value;
+  auto json = parse_json("", text, quiet);
+  if (!json) return text_json(text, position);
+  place(*json, position);
+  return std::move(*json);
 }
 
 // As a wire: "a,b" is a list, and words that happen to be JSON numbers stay text.
 Json wire_of(const std::string& text, TextPosition position) {
   Json value = value_of(text, position);
   if (!value.is(Json::Kind::text) || text.starts_with('"') || text.find(',') == text.npos) return value;
-  value.kind = Json::Kind::list;
+  std::vector<Json> items;
   for (std::size_t at = 0, comma = 0; comma != text.npos; at = comma + 1) {
     comma = text.find(',', at);
-    Json item;
-    item.kind = Json::Kind::text;
-    item.text = text.substr(at, comma - at);
-    item.position = position;
-    value.items.push_back(std::move(item));
+    items.push_back(text_json(text.substr(at, comma - at), position));
   }
-  value.text.clear();
-  return value;
+  return list_json(std::move(items), position);
 }
 
 }  // namespace
@@ -252,11 +244,7 @@ Edits parse_edits(std::span<const Edit> edits, Faults& faults) {
     const TextPosition at{position.source, equals + 1};
     if (e.kind == Edit::Kind::set) forms.set(target, position, value_of(text, at), "");
     if (e.kind == Edit::Kind::wire) forms.wire(target, position, wire_of(text, at), "");
-    if (e.kind == Edit::Kind::swap) {
-      Json type;
-      type.kind = Json::Kind::text, type.text = text, type.position = at;
-      forms.swap(target, position, type, "");
-    }
+    if (e.kind == Edit::Kind::swap) forms.swap(target, position, text_json(text, at), "");
   }
   std::ranges::stable_sort(forms.changes, {}, &Change::kind);
   out.changes = std::move(forms.changes);

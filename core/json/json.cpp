@@ -242,6 +242,24 @@ std::string Json::shown() const {
   return "";
 }
 
+Json text_json(std::string text, TextPosition position) {
+  Json json;
+  json.kind = Json::Kind::text, json.position = position, json.text = std::move(text);
+  return json;
+}
+
+Json list_json(std::vector<Json> items, TextPosition position) {
+  Json json;
+  json.kind = Json::Kind::list, json.position = position, json.items = std::move(items);
+  return json;
+}
+
+Json object_json(TextPosition position) {
+  Json json;
+  json.kind = Json::Kind::object, json.position = position;
+  return json;
+}
+
 std::optional<Json> parse_json(std::string name, std::string text, Diagnostics& diagnostics) {
   const int source = diagnostics.sources.add(std::move(name), std::move(text));
   // A copy of the reference only: sources are never removed, and none is added while this one is parsed.

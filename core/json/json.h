@@ -38,6 +38,11 @@ struct JsonMember {
   Json value;
 };
 
+// Values that no text holds: what stands for what was read somewhere else, at that place.
+Json text_json(std::string text, TextPosition);
+Json list_json(std::vector<Json> items, TextPosition);
+Json object_json(TextPosition);
+
 // Parses one document whose text becomes a source called `name`. Syntax errors, duplicate keys (one message each, 64 at
 // most), more than 64 levels or 4 million values and numbers that are not finite are errors; nothing is returned then.
 // Bounded: a text of 100 MB of brackets is an error, not a crash. Takes comments and a byte order mark.

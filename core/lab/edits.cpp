@@ -48,8 +48,7 @@ std::string value(const Json& j) {
 }  // namespace
 
 Json edits_of(const Json& object) {
-  Json edits;
-  edits.kind = Json::Kind::object, edits.position = object.position;
+  Json edits = object_json(object.position);
   for (const auto& m : object.members)
     if (m.key == "set" || m.key == "swap" || m.key == "wire" || m.key == "bypass") edits.members.push_back(m);
   return edits;

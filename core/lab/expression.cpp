@@ -96,10 +96,9 @@ class ExpressionParser {
                                               Function{"max", Kind::max, 2}};
     const auto it = std::ranges::find_if(kFunctions, [&](const Function& f) { return f.name == function; });
     if (it == kFunctions.end()) {
-      std::vector<std::string> names;
-      for (const auto& f : kFunctions) names.emplace_back(f.name);
       at_ = first;
-      refuse(fmt::format("there is no function '{}'; {}", function, possibilities("there are", function, names)));
+      refuse(fmt::format("there is no function '{}'; {}", function,
+                         possibilities("there are", function, names_of(kFunctions))));
     }
     sum();
     for (int i = 1; i < it->arguments; ++i) expect(','), sum();

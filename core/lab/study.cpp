@@ -1,9 +1,10 @@
 // The keys of a study, each checked where it stands.
 #include "core/lab/study.h"
 
+#include "core/json/members.h"
+#include "core/lab/edits.h"
 #include "core/lab/variants.h"
 #include "core/report/suggest.h"
-#include "core/sequence/document.h"
 
 #include <fmt/format.h>
 
@@ -46,24 +47,36 @@ class StudyParser {
   std::optional<Study> parse() {
     if (!find_file()) return std::nullopt;
     const auto json = parse_json_file(study_.file, diagnostics_);
-    if (!json || !is_study(*json)) return std::nullopt;
-    return parse(*json, true);
+    if (!json || !is_document(*json, "quell_study", "a study", diagnostics_)) return std::nullopt;
+    const std::size_t before = diagnostics_.errors();
+    check_keys(*json, "", kKeys, diagnostics_);
+    study_.name = text(*json, "name").value_or(fs::path(study_.file).stem().string());
+    study_.about = text(*json, "about").value_or("");
+    study_.output = text(*json, "output").value_or("");
+    if (const Json* all = list(*json, "sequences", "the sequences that variants are tried on"))
+      sequences(*all, "sequences");
+    if (const Json* all = list(*json, "metrics", "the metrics that variants are judged by")) metrics(*all);
+    seeds(*json);
+    warm_up(*json, "");
+    if (const auto graph = text(*json, "graph"))
+      study_.variants = expand_variants(*json, *graph, folder(), diagnostics_);
+    else if (!json->find("graph"))
+      error(json->position, "", "a study needs a \"graph\", of which it tries variants");
+    if (diagnostics_.errors() != before) return std::nullopt;
+    return std::move(study_);
   }
 
-  std::optional<Study> parse(const Json& json, bool needs_metrics) {
+  std::optional<Study> parse(const StudyPart& part) {
     const std::size_t before = diagnostics_.errors();
-    check_keys(json, "", kKeys, diagnostics_);
-    study_.name = text(json, "name").value_or(fs::path(study_.file).stem().string());
-    study_.about = text(json, "about").value_or("");
-    study_.output = text(json, "output").value_or("");
-    sequences(json);
-    if (needs_metrics || json.find("metrics")) metrics(json);
-    seeds(json);
-    warm_up(json);
-    if (const auto graph = text(json, "graph"))
-      study_.variants = expand_variants(json, *graph, folder(), diagnostics_);
-    else if (!json.find("graph"))
-      error(json.position, "", "a study needs a \"graph\", of which it tries variants");
+    study_.output = text(part.json, "output", part.where).value_or("");
+    sequences(part.sequences, part.sequences_where);
+    for (const auto& m : part.metrics) metric(m);
+    warm_up(part.json, part.where);
+    if (const auto graph = text(part.json, "graph", part.where))
+      study_.variants.push_back({part.name, "", graph_file(*graph, folder()), edits_of(part.json), false,
+                                 part.json.find("graph")->position, joined(part.where, "graph")});
+    else if (!part.json.find("graph"))
+      error(part.json.position, part.where, "has no \"graph\"");
     if (diagnostics_.errors() != before) return std::nullopt;
     return std::move(study_);
   }
@@ -74,8 +87,7 @@ class StudyParser {
   }
   fs::path folder() const { return fs::path(study_.file).parent_path(); }
   std::optional<std::string> text(const Json& json, const char* key, const std::string& path = "") {
-    const Json* j = member(json, key, Json::Kind::text, path, diagnostics_);
-    return j ? std::optional(j->text) : std::nullopt;
+    return text_member(json, key, path, diagnostics_);
   }
 
   bool find_file() {
@@ -89,21 +101,6 @@ class StudyParser {
     }
     study_.file = (studies / (request_.path + ".json")).string();
     return true;
-  }
-
-  bool is_study(const Json& json) {
-    if (!json.is(Json::Kind::object)) {
-      error(json.position, "", fmt::format("a study is an object, not {}", json.shown()));
-      return false;
-    }
-    const Json* version = json.find("quell_study");
-    if (version && version->is(Json::Kind::integer) && version->integer == 1) return true;
-    if (version)
-      error(version->position, "quell_study",
-            fmt::format("version {} is not known; this program reads version 1", version->shown()));
-    else
-      error(json.position, "", "a study begins with \"quell_study\": 1");
-    return false;
   }
 
   // The list under a key that must be there and hold something.
@@ -120,31 +117,31 @@ class StudyParser {
     return false;
   }
 
-  void sequences(const Json& json) {
-    const Json* all = list(json, "sequences", "the sequences that variants are tried on");
-    if (!all) return;
-    for (std::size_t i = 0; i < all->items.size(); ++i) {
-      const Json& item = all->items[i];
-      StudySequence s;
-      s.where = fmt::format("sequences[{}]", i);
-      s.position = item.position;
-      if (item.is(Json::Kind::text))
-        s.written = item.text;
-      else if (item.is(Json::Kind::object))
-        sequence_object(item, s);
-      else
-        error(item.position, s.where, fmt::format("must name a sequence or be an object, not {}", item.shown()));
-      if (s.written.empty()) continue;
-      s.path = sequence_path(s);
-      if (s.name.empty()) s.name = fs::path(s.written).stem().string();
-      if (const auto why = problem_of_name(s.name); !why.empty())
-        error(s.position, s.where, why, {"give it a \"name\""});
-      const auto same = std::ranges::find(study_.sequences, s.name, &StudySequence::name);
-      if (same != study_.sequences.end())
-        error(s.position, s.where, fmt::format("two sequences are called '{}'", s.name),
-              {fmt::format("the other is {}; give one a \"name\"", same->where)});
-      study_.sequences.push_back(std::move(s));
-    }
+  void sequences(const Json& json, const std::string& where) {
+    if (!json.is(Json::Kind::list)) return sequence(json, where);
+    if (!is_short(json, where)) return;
+    for (std::size_t i = 0; i < json.items.size(); ++i) sequence(json.items[i], fmt::format("{}[{}]", where, i));
+  }
+
+  void sequence(const Json& json, const std::string& where) {
+    StudySequence s;
+    s.where = where;
+    s.position = json.position;
+    if (json.is(Json::Kind::text))
+      s.written = json.text;
+    else if (json.is(Json::Kind::object))
+      sequence_object(json, s);
+    else
+      error(json.position, s.where, fmt::format("must name a sequence or be an object, not {}", json.shown()));
+    if (s.written.empty()) return;
+    s.path = sequence_path(s);
+    if (s.name.empty()) s.name = fs::path(s.written).stem().string();
+    if (const auto why = problem_of_name(s.name); !why.empty()) error(s.position, s.where, why, {"give it a \"name\""});
+    const auto same = std::ranges::find(study_.sequences, s.name, &StudySequence::name);
+    if (same != study_.sequences.end())
+      error(s.position, s.where, fmt::format("two sequences are called '{}'", s.name),
+            {fmt::format("the other is {}; give one a \"name\"", same->where)});
+    study_.sequences.push_back(std::move(s));
   }
 
   void sequence_object(const Json& item, StudySequence& s) {
@@ -174,22 +171,23 @@ class StudyParser {
     return (built_in / (s.written + ".json")).string();
   }
 
-  void metrics(const Json& json) {
-    const Json* all = list(json, "metrics", "the metrics that variants are judged by");
-    if (!all) return;
-    for (std::size_t i = 0; i < all->items.size(); ++i) {
-      const Json& item = all->items[i];
-      StudyMetric m{item.text, item.position, fmt::format("metrics[{}]", i)};
+  void metrics(const Json& all) {
+    for (std::size_t i = 0; i < all.items.size(); ++i) {
+      const Json& item = all.items[i];
+      const auto where = fmt::format("metrics[{}]", i);
       if (!item.is(Json::Kind::text) || item.text.empty()) {
-        error(item.position, m.where, fmt::format("must name a metric, not {}", item.shown()));
+        error(item.position, where, fmt::format("must name a metric, not {}", item.shown()));
         continue;
       }
       if (std::ranges::find(study_.metrics, item.text, &StudyMetric::name) != study_.metrics.end())
-        error(item.position, m.where, fmt::format("'{}' is listed twice", item.text));
-      if (!plain_name(m.name) && !m.name.starts_with("quell:"))
-        m.name = (folder() / m.name).lexically_normal().string();
-      study_.metrics.push_back(std::move(m));
+        error(item.position, where, fmt::format("'{}' is listed twice", item.text));
+      metric({item.text, item.position, where});
     }
+  }
+
+  void metric(StudyMetric m) {
+    if (!plain_name(m.name) && !m.name.starts_with("quell:")) m.name = (folder() / m.name).lexically_normal().string();
+    study_.metrics.push_back(std::move(m));
   }
 
   void seeds(const Json& json) {
@@ -214,11 +212,11 @@ class StudyParser {
     study_.seeds = std::move(seeds);
   }
 
-  void warm_up(const Json& json) {
+  void warm_up(const Json& json, const std::string& where) {
     const Json* j = json.find("warm_up");
     if (!j) return;
     if (!j->is(Json::Kind::integer) || j->integer < 0 || j->integer > 1'000'000)
-      error(j->position, "warm_up", fmt::format("must be a number of frames, not {}", j->shown()));
+      error(j->position, joined(where, "warm_up"), fmt::format("must be a number of frames, not {}", j->shown()));
     else
       study_.warm_up = int(j->integer);
   }
@@ -234,10 +232,10 @@ std::optional<Study> load_study(const StudyRequest& request, Diagnostics& diagno
   return StudyParser(request, diagnostics).parse();
 }
 
-std::optional<Study> parse_study(const Json& json, const std::string& file, const fs::path& graphs,
+std::optional<Study> parse_study(const StudyPart& part, const std::string& file, const fs::path& graphs,
                                  Diagnostics& diagnostics) {
   const StudyRequest request{file, graphs};
-  return StudyParser(request, diagnostics).parse(json, false);
+  return StudyParser(request, diagnostics).parse(part);
 }
 
 }  // namespace quell

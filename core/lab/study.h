@@ -67,9 +67,18 @@ struct StudyRequest {
 // All mistakes of the file together; what its names mean to graphs, metrics and sequences is for those to say.
 std::optional<Study> load_study(const StudyRequest&, Diagnostics&);
 
-// The same of a document that stands in another file, whose folder names are relative to: a suite, a tuning. It need
-// not say "quell_study", nor name metrics.
-std::optional<Study> parse_study(const Json&, const std::string& file, const std::filesystem::path& graphs,
+// A part of another file that is a study of one graph: a test of a suite, a tuning.
+struct StudyPart {
+  const Json& json;             // has "graph", and perhaps "output", "warm_up" and edits of the graph
+  std::string where;            // "tests.svgf"; "" for the file itself
+  std::string name;             // of the one variant
+  const Json& sequences;        // a list of them, or one
+  std::string sequences_where;  // "train"
+  std::vector<StudyMetric> metrics;
+};
+
+// The same of such a part; names of files are relative to the folder of `file`.
+std::optional<Study> parse_study(const StudyPart&, const std::string& file, const std::filesystem::path& graphs,
                                  Diagnostics&);
 
 }  // namespace quell

@@ -1,9 +1,8 @@
 // The keys of a suite, each checked where it stands.
 #include "core/lab/suite.h"
 
-#include "core/lab/edits.h"
+#include "core/json/members.h"
 #include "core/lab/variants.h"
-#include "core/sequence/document.h"
 #include "core/sequence/frame_range.h"
 
 #include <fmt/format.h>
@@ -19,18 +18,6 @@ namespace {
 const std::vector<std::string> kTestKeys = {"about",  "graph",    "set",     "swap", "wire",  "bypass",
                                             "output", "sequence", "warm_up", "fail", "golden"};
 
-Json text_json(const std::string& text, TextPosition position) {
-  Json j;
-  j.kind = Json::Kind::text, j.text = text, j.position = position;
-  return j;
-}
-
-Json list_of(std::vector<Json> items, TextPosition position) {
-  Json j;
-  j.kind = Json::Kind::list, j.items = std::move(items), j.position = position;
-  return j;
-}
-
 class SuiteParser {
  public:
   SuiteParser(const std::string& path, const fs::path& graphs, Diagnostics& diagnostics)
@@ -41,13 +28,7 @@ class SuiteParser {
   std::optional<Suite> parse() {
     const std::size_t before = diagnostics_.errors();
     const auto json = parse_json_file(suite_.file, diagnostics_);
-    if (!json) return std::nullopt;
-    const Json* version = json->is(Json::Kind::object) ? json->find("quell_suite") : nullptr;
-    if (!version || !version->is(Json::Kind::integer) || version->integer != 1) {
-      error(version ? version->position : json->position, "",
-            "a suite is an object that begins with \"quell_suite\": 1");
-      return std::nullopt;
-    }
+    if (!json || !is_document(*json, "quell_suite", "a suite", diagnostics_)) return std::nullopt;
     check_keys(*json, "", std::vector<std::string>{"quell_suite", "name", "about", "golden", "tests"}, diagnostics_);
     suite_.name = text(*json, "name", "").value_or(fs::path(suite_.file).stem().string());
     suite_.about = text(*json, "about", "").value_or("");
@@ -69,8 +50,7 @@ class SuiteParser {
   }
   fs::path folder() const { return fs::path(suite_.file).parent_path(); }
   std::optional<std::string> text(const Json& json, const char* key, const std::string& path) {
-    const Json* j = member(json, key, Json::Kind::text, path, diagnostics_);
-    return j ? std::optional(j->text) : std::nullopt;
+    return text_member(json, key, path, diagnostics_);
   }
 
   void test(const JsonMember& m) {
@@ -85,9 +65,9 @@ class SuiteParser {
     golden(m.value, where, t);
     if (t.fail.empty() && !t.golden)
       error(m.key_position, where, "tests nothing; it needs \"golden\" images or conditions to \"fail\" on");
-    const auto study = study_of(m.value, where, t);
+    auto study = study_of(m.value, where, t);
     if (!study) return;
-    t.study = *study;
+    t.study = std::move(*study);
     suite_.tests.push_back(std::move(t));
   }
 
@@ -139,33 +119,19 @@ class SuiteParser {
     t.golden = std::move(images);
   }
 
-  // A study of this graph alone, so that both are read by the same rules.
   std::optional<Study> study_of(const Json& json, const std::string& where, const SuiteTest& t) {
-    Json study;
-    study.kind = Json::Kind::object, study.position = json.position;
-    const auto add = [&](const char* key, Json value) {
-      const auto position = value.position;
-      study.members.push_back({key, position, std::move(value)});
-    };
-    for (const char* key : {"graph", "output", "warm_up"})
-      if (const Json* j = json.find(key)) add(key, *j);
-    if (const Json* j = json.find("sequence"))
-      add("sequences", list_of({*j}, j->position));
-    else
-      error(json.position, where, "has no \"sequence\"");
-    std::vector<Json> metrics;
+    const Json* sequence = json.find("sequence");
+    if (!sequence) error(json.position, where, "has no \"sequence\"");
+    if (sequence && sequence->is(Json::Kind::list)) {
+      error(sequence->position, where + ".sequence", "a test has one sequence, not a list");
+      sequence = nullptr;
+    }
+    if (!sequence) return std::nullopt;
+    StudyPart part{json, where, t.name, *sequence, where + ".sequence", {}};
     for (const auto& f : t.fail)
-      if (std::ranges::find(metrics, f.metric, &Json::text) == metrics.end())
-        metrics.push_back(text_json(f.metric, t.position));
-    if (!metrics.empty()) add("metrics", list_of(std::move(metrics), t.position));
-    if (!json.find("sequence")) return std::nullopt;
-    auto parsed = parse_study(study, suite_.file, graphs_, diagnostics_);
-    if (!parsed) return parsed;
-    parsed->variants.front().edits = edits_of(json);
-    parsed->variants.front().name = t.name;
-    parsed->variants.front().where = where;
-    parsed->variants.front().position = t.position;
-    return parsed;
+      if (std::ranges::find(part.metrics, f.metric, &StudyMetric::name) == part.metrics.end())
+        part.metrics.push_back({f.metric, t.position, where + ".fail"});
+    return parse_study(part, suite_.file, graphs_, diagnostics_);
   }
 
   const fs::path& graphs_;

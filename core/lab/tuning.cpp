@@ -1,10 +1,9 @@
 // The keys of a tuning file, each checked where it stands.
 #include "core/lab/tuning.h"
 
-#include "core/lab/edits.h"
+#include "core/json/members.h"
 #include "core/lab/range.h"
 #include "core/lab/threshold.h"
-#include "core/sequence/document.h"
 
 #include <fmt/format.h>
 
@@ -32,13 +31,7 @@ class TuningParser {
   std::optional<Tuning> parse() {
     const std::size_t before = diagnostics_.errors();
     const auto json = parse_json_file(tuning_.file, diagnostics_);
-    if (!json) return std::nullopt;
-    const Json* version = json->is(Json::Kind::object) ? json->find("quell_tune") : nullptr;
-    if (!version || !version->is(Json::Kind::integer) || version->integer != 1) {
-      error(version ? version->position : json->position, "",
-            "a tuning file is an object that begins with \"quell_tune\": 1");
-      return std::nullopt;
-    }
+    if (!json || !is_document(*json, "quell_tune", "a tuning", diagnostics_)) return std::nullopt;
     const std::vector<std::string> keys = {"quell_tune", "name",        "about",     "graph",      "output",   "set",
                                            "swap",       "wire",        "bypass",    "parameters", "minimise", "train",
                                            "held_out",   "evaluations", "tolerance", "warm_up"};
@@ -63,8 +56,7 @@ class TuningParser {
     diagnostics_.error(position, std::move(path), std::move(text), std::move(notes));
   }
   std::optional<std::string> text(const Json& json, const char* key) {
-    const Json* j = member(json, key, Json::Kind::text, "", diagnostics_);
-    return j ? std::optional(j->text) : std::nullopt;
+    return text_member(json, key, "", diagnostics_);
   }
 
   void minimise(const Json& json) {
@@ -149,37 +141,16 @@ class TuningParser {
     }
   }
 
-  // A study of this graph on these sequences, so that both are read by the same rules.
-  std::optional<Study> study_of(const Json& json, const char* sequences) {
-    Json study;
-    study.kind = Json::Kind::object, study.position = json.position;
-    const auto add = [&](const char* key, Json value) {
-      const auto position = value.position;
-      study.members.push_back({key, position, std::move(value)});
-    };
-    for (const char* key : {"graph", "output", "warm_up"})
-      if (const Json* j = json.find(key)) add(key, *j);
-    const Json* list = json.find(sequences);
-    if (!list) {
-      error(json.position, "", fmt::format("has no \"{}\": the sequences to tune on", sequences));
-      return std::nullopt;
-    }
-    add("sequences", *list);
-    if (!tuning_.minimise) return std::nullopt;
-    const Json* expression = json.find("minimise");
-    Json metrics;
-    metrics.kind = Json::Kind::list, metrics.position = expression->position;
-    for (const auto& name : tuning_.minimise->names()) {
-      Json metric;
-      metric.kind = Json::Kind::text, metric.text = metric_of(name), metric.position = expression->position;
-      if (std::ranges::find(metrics.items, metric.text, &Json::text) == metrics.items.end())
-        metrics.items.push_back(std::move(metric));
-    }
-    add("metrics", std::move(metrics));
-    auto parsed = parse_study(study, tuning_.file, graphs_, diagnostics_);
-    if (!parsed) return parsed;
-    parsed->variants.front().edits = edits_of(json);
-    return parsed;
+  std::optional<Study> study_of(const Json& json, const char* key) {
+    const Json* list = member(json, key, Json::Kind::list, "", diagnostics_);
+    if (!json.find(key)) error(json.position, "", fmt::format("has no \"{}\": the sequences to tune on", key));
+    if (list && list->items.empty()) error(list->position, key, "is empty; it lists the sequences to tune on");
+    if (!list || list->items.empty() || !tuning_.minimise) return std::nullopt;
+    StudyPart part{json, "", "base", *list, key, {}};
+    for (const auto& name : tuning_.minimise->names())
+      if (std::ranges::find(part.metrics, metric_of(name), &StudyMetric::name) == part.metrics.end())
+        part.metrics.push_back({metric_of(name), json.find("minimise")->position, "minimise"});
+    return parse_study(part, tuning_.file, graphs_, diagnostics_);
   }
 
   const fs::path& graphs_;

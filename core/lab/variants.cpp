@@ -1,8 +1,9 @@
 // What a study leaves to be written out: one variant a value of a sweep, a node left out, a level fed back.
 #include "core/lab/variants.h"
 
+#include "core/json/members.h"
+#include "core/lab/edits.h"
 #include "core/lab/range.h"
-#include "core/sequence/document.h"
 
 #include <fmt/format.h>
 
@@ -17,21 +18,9 @@ namespace {
 constexpr std::string_view kInNames = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.=,+-";
 constexpr std::size_t kLongestName = 120;
 
-Json text_at(TextPosition position, std::string text) {
-  Json json;
-  json.kind = Json::Kind::text, json.position = position, json.text = std::move(text);
-  return json;
-}
-
-Json object_at(TextPosition position) {
-  Json json;
-  json.kind = Json::Kind::object, json.position = position;
-  return json;
-}
-
 // { "set": { … } } and the like.
 Json edit(const char* form, Json value) {
-  Json edits = object_at(value.position);
+  Json edits = object_json(value.position);
   edits.members.push_back({form, value.position, std::move(value)});
   return edits;
 }
@@ -76,7 +65,7 @@ class Expander {
       : graph_(std::move(graph)), folder_(std::move(folder)), diagnostics_(diagnostics) {}
 
   std::vector<StudyVariant> expand(const Json& study) {
-    add("base", "The graph as it is.", object_at(study.find("graph")->position), "graph");
+    add("base", "The graph as it is.", object_json(study.find("graph")->position), "graph");
     written(study);
     left_out(study);
     fed_back(study);
@@ -105,15 +94,9 @@ class Expander {
       error(edits.position, where, fmt::format("two variants are called '{}'", name),
             {fmt::format("the other is {} ({})", same->where, diagnostics_.sources.place(same->position))});
     const auto position = edits.position;
-    variants_.push_back(
-        {std::move(name), std::move(about), graph_file(graph_), std::move(edits), false, position, std::move(where)});
+    variants_.push_back({std::move(name), std::move(about), graph_file(graph_, folder_), std::move(edits), false,
+                         position, std::move(where)});
     return &variants_.back();
-  }
-
-  // Installed graphs go by name, others lie beside the study.
-  std::string graph_file(const std::string& graph) const {
-    const bool installed = (graph.find('/') == graph.npos && !graph.ends_with(".json")) || graph.starts_with("quell:");
-    return installed ? graph : (folder_ / graph).lexically_normal().string();
   }
 
   void written(const Json& study) {
@@ -127,13 +110,12 @@ class Expander {
       }
       check_keys(m.value, where, std::vector<std::string>{"about", "graph", "set", "swap", "wire", "bypass"},
                  diagnostics_);
-      const Json* about = member(m.value, "about", Json::Kind::text, where, diagnostics_);
-      const Json* graph = member(m.value, "graph", Json::Kind::text, where, diagnostics_);
-      Json edits = object_at(m.key_position);
-      for (const auto& e : m.value.members)
-        if (e.key != "about" && e.key != "graph") edits.members.push_back(e);
-      auto* variant = add(m.key, about ? about->text : "", std::move(edits), where);
-      if (variant && graph) variant->graph = graph_file(graph->text);
+      const auto about = text_member(m.value, "about", where, diagnostics_);
+      const auto graph = text_member(m.value, "graph", where, diagnostics_);
+      Json edits = edits_of(m.value);
+      edits.position = m.key_position;
+      auto* variant = add(m.key, about.value_or(""), std::move(edits), where);
+      if (variant && graph) variant->graph = graph_file(*graph, folder_);
     }
   }
 
@@ -159,11 +141,10 @@ class Expander {
       const std::string where = fmt::format("leave_one_out[{}]", i);
       const auto names = nodes(item, where);
       if (!names) continue;
-      Json list;
-      list.kind = Json::Kind::list, list.position = item.position;
-      for (const auto& name : *names) list.items.push_back(text_at(item.position, name));
+      std::vector<Json> list;
+      for (const auto& name : *names) list.push_back(text_json(name, item.position));
       add(as_name(fmt::format("no_{}", fmt::join(*names, "+"))), fmt::format("Without {}.", fmt::join(*names, ", ")),
-          edit("bypass", std::move(list)), where);
+          edit("bypass", list_json(std::move(list), item.position)), where);
     }
   }
 
@@ -188,9 +169,9 @@ class Expander {
         continue;
       }
       const bool delayed = level.text.find('@') != std::string::npos;
-      Json wires = object_at(level.position);
+      Json wires = object_json(level.position);
       wires.members.push_back(
-          {wire->text, level.position, text_at(level.position, delayed ? level.text : level.text + "@-1")});
+          {wire->text, level.position, text_json(delayed ? level.text : level.text + "@-1", level.position)});
       add(as_name("feedback=" + level.text), fmt::format("{} reads {} of the frame before.", wire->text, level.text),
           edit("wire", std::move(wires)), where);
     }
@@ -255,7 +236,7 @@ class Expander {
   // Whether there was room for it.
   bool add_point(const Point& point, const std::string& where) {
     std::string name, about;
-    Json set = object_at(point.front().second->position);
+    Json set = object_json(point.front().second->position);
     for (const auto& [sweep, value] : point) {
       name += fmt::format("{}{}={}", name.empty() ? "" : ",", sweep->target, value_text(*value));
       about += fmt::format("{}{} = {}", about.empty() ? "" : ", ", sweep->target, value->shown());
@@ -288,8 +269,8 @@ class Expander {
         continue;
       }
       const auto name = std::filesystem::path(item.text).stem().string();
-      auto* variant = add(as_name(name), fmt::format("The graph {}.", item.text), object_at(item.position), where);
-      if (variant) variant->graph = graph_file(item.text), variant->baseline = true;
+      auto* variant = add(as_name(name), fmt::format("The graph {}.", item.text), object_json(item.position), where);
+      if (variant) variant->graph = graph_file(item.text, folder_), variant->baseline = true;
     }
   }
 
@@ -305,6 +286,11 @@ class Expander {
 std::vector<StudyVariant> expand_variants(const Json& study, const std::string& graph,
                                           const std::filesystem::path& folder, Diagnostics& diagnostics) {
   return Expander(graph, folder, diagnostics).expand(study);
+}
+
+std::string graph_file(const std::string& graph, const std::filesystem::path& folder) {
+  const bool installed = (graph.find('/') == graph.npos && !graph.ends_with(".json")) || graph.starts_with("quell:");
+  return installed ? graph : (folder / graph).lexically_normal().string();
 }
 
 std::string problem_of_name(const std::string& name) {

@@ -11,6 +11,9 @@ namespace quell {
 std::vector<StudyVariant> expand_variants(const Json& study, const std::string& graph,
                                           const std::filesystem::path& folder, Diagnostics&);
 
+// What load_graph takes for a graph that a file in `folder` names: installed ones go by name, others lie beside it.
+std::string graph_file(const std::string& graph, const std::filesystem::path& folder);
+
 // What keeps a name from being that of a file and a folder in results; "" when nothing does.
 std::string problem_of_name(const std::string& name);
 

@@ -32,11 +32,9 @@ std::optional<Instance> source_instance(const SourceNode& source, const SourcePa
   const auto set = [&](const JsonMember& member, const std::string& where) {
     const int param = type->find_param(member.key);
     if (param < 0) {
-      std::vector<std::string> names;
-      for (const auto& p : type->params()) names.emplace_back(p.name);
       diagnostics.error(member.value.position, where + member.key,
                         fmt::format("node type '{}' has no parameter '{}'", type->name(), member.key),
-                        {possibilities("it has", member.key, names)});
+                        {possibilities("it has", member.key, names_of(type->params()))});
       return;
     }
     if (auto problem = assign(instance, param, member.value, true, library); !problem.text.empty())

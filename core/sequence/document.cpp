@@ -1,6 +1,7 @@
 // Entries of "inputs": file, channels and the closed list of conversions, each for the types that it can apply to.
 #include "core/sequence/document.h"
 
+#include "core/json/members.h"
 #include "core/report/suggest.h"
 #include "core/sequence/role.h"
 
@@ -14,39 +15,6 @@
 #include <limits>
 
 namespace quell {
-
-std::string joined(const std::string& path, std::string_view key) {
-  return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
-}
-
-void check_keys(const Json& object, const std::string& path, std::span<const std::string> known,
-                Diagnostics& diagnostics) {
-  for (const auto& m : object.members) {
-    if (std::ranges::find(known, m.key) != known.end()) continue;
-    diagnostics.error(m.key_position, path, fmt::format("unknown key '{}'", m.key),
-                      {possibilities("possible keys", m.key, known)});
-  }
-}
-
-namespace {
-
-std::string kind_name(Json::Kind kind) {
-  Json json;
-  json.kind = kind;
-  return json.kind_name();
-}
-
-}  // namespace
-
-const Json* member(const Json& object, std::string_view key, Json::Kind kind, const std::string& path,
-                   Diagnostics& diagnostics) {
-  const Json* json = object.find(key);
-  if (!json) return nullptr;
-  if (json->is(kind) || (kind == Json::Kind::number && json->is_number())) return json;
-  diagnostics.error(json->position, joined(path, key),
-                    fmt::format("must be {}, not {}", kind_name(kind), json->shown()));
-  return nullptr;
-}
 
 namespace {
 

@@ -2,6 +2,7 @@
 // entries}}.
 #include "core/sequence/profile.h"
 
+#include "core/json/members.h"
 #include "core/sequence/document.h"
 
 #include <fmt/format.h>
@@ -61,17 +62,9 @@ std::optional<Profile> load_profile(const std::filesystem::path& folder, const s
                                     Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errors();
   const auto document = parse_json_file((folder / (name + ".json")).string(), diagnostics);
-  if (!document) return std::nullopt;
-  if (!document->is(Json::Kind::object)) {
-    diagnostics.error(document->position, "", fmt::format("a profile is an object, not {}", document->shown()));
-    return std::nullopt;
-  }
+  if (!document || !is_document(*document, "quell_profile", "a profile", diagnostics)) return std::nullopt;
   const std::vector<std::string> keys = {"quell_profile", "about", "detect", "inputs"};
   check_keys(*document, "", keys, diagnostics);
-  const Json* version = document->find("quell_profile");
-  if (!version || !version->is(Json::Kind::integer) || version->integer != 1)
-    diagnostics.error(version ? version->position : document->position, "",
-                      "a profile begins with \"quell_profile\": 1");
   Profile profile;
   profile.name = name;
   if (const Json* about = member(*document, "about", Json::Kind::text, "", diagnostics)) profile.about = about->text;

@@ -1,6 +1,7 @@
 // From a request to a sequence: a document, a profile that recognises an image, or a profile that recognises a folder.
 #include "core/sequence/sequence.h"
 
+#include "core/json/members.h"
 #include "core/report/error.h"
 #include "core/report/suggest.h"
 #include "core/sequence/document.h"
@@ -72,19 +73,7 @@ class Loader {
   void document() {
     const auto json = request_.text ? parse_json(request_.path, *request_.text, diagnostics_)
                                     : parse_json_file(request_.path, diagnostics_, Exit::input);
-    if (!json) return;
-    if (!json->is(Json::Kind::object)) {
-      diagnostics_.error(json->position, "", fmt::format("a sequence is an object, not {}", json->shown()));
-      return;
-    }
-    const Json* version = json->find("quell_sequence");
-    if (!version || !version->is(Json::Kind::integer) || version->integer != 1) {
-      diagnostics_.error(version ? version->position : json->position, version ? "quell_sequence" : "",
-                         version
-                             ? fmt::format("version {} is not known; this program reads version 1", version->shown())
-                             : "a sequence begins with \"quell_sequence\": 1");
-      return;
-    }
+    if (!json || !is_document(*json, "quell_sequence", "a sequence", diagnostics_)) return;
     const std::vector<std::string> keys = {"quell_sequence", "about", "root",   "frames", "cuts",
                                            "profile",        "file",  "inputs", "source", "reference"};
     check_keys(*json, "", keys, diagnostics_);
