@@ -1,11 +1,11 @@
 // Every graph in tests/bad/graphs, with the exact messages that stand beside it. A graph may begin with comments that
 // say how it is loaded: "// --set node.parameter=3" and "// roles: color albedo".
+#include "tests/support/bad_files.h"
 #include "tests/support/graph_nodes.h"
 #include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -18,24 +18,11 @@ namespace fs = std::filesystem;
 // Relative, so that messages read the same in every checkout.
 const fs::path kFolder = "tests/bad/graphs";
 
-std::vector<std::string> names() {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(QUELL_TEST_SOURCE / kFolder))
-    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-  std::ranges::sort(names);
-  return names;
-}
-
-std::string content(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 GraphRequest request_for(const fs::path& file) {
   GraphRequest request;
   request.graph = file.generic_string();
   request.graphs = kFolder;
-  std::istringstream lines(content(file));
+  std::ifstream lines(file, std::ios::binary);
   const auto option = [&](const std::string& line, std::string_view name, Edit::Kind kind) {
     if (line.starts_with(name)) request.edits.push_back({kind, line.substr(name.size())});
   };
@@ -65,13 +52,13 @@ class BadGraph : public testing::TestWithParam<std::string> {
 TEST_P(BadGraph, SaysExactly) {
   const fs::path file = kFolder / (GetParam() + ".json");
   const auto loaded = load(request_for(file));
-  const std::string expected = content(fs::path(file).replace_extension(".txt"));
-  EXPECT_FALSE(expected.empty());
+  const auto expected = expected_messages(kFolder, GetParam());
   EXPECT_EQ(loaded.messages, expected);
   EXPECT_EQ(loaded.graph.has_value(), expected.find("error: ") == expected.npos);
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, BadGraph, testing::ValuesIn(names()), [](const auto& i) { return i.param; });
+INSTANTIATE_TEST_SUITE_P(Files, BadGraph, testing::ValuesIn(bad_files(QUELL_TEST_SOURCE / kFolder)),
+                         [](const auto& i) { return i.param; });
 
 }  // namespace
 }  // namespace quell::test

@@ -1,28 +1,17 @@
 // Every file in tests/bad/sequences, with exactly the messages of the text beside it.
 #include "core/sequence/sequence.h"
+#include "tests/support/bad_files.h"
 #include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
-#include <vector>
 
-namespace quell {
+namespace quell::test {
 namespace {
 
 const std::filesystem::path kFolder = std::filesystem::path(QUELL_TEST_SOURCE) / "tests/bad/sequences";
-
-std::vector<std::string> names() {
-  std::vector<std::string> out;
-  for (const auto& entry : std::filesystem::directory_iterator(kFolder))
-    if (entry.path().extension() == ".json") out.push_back(entry.path().stem().string());
-  std::ranges::sort(out);
-  return out;
-}
 
 class BadSequence : public testing::TestWithParam<std::string> {};
 
@@ -36,12 +25,11 @@ TEST_P(BadSequence, IsRefusedInTheseWords) {
   const auto sequence = load_sequence(request, diagnostics);
   std::filesystem::current_path(before);
   EXPECT_FALSE(sequence);
-  std::ifstream file(kFolder / (GetParam() + ".txt"));
-  const std::string expected{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_EQ(diagnostics.format(), expected);
+  EXPECT_EQ(diagnostics.format(), expected_messages(kFolder, GetParam()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, BadSequence, testing::ValuesIn(names()), [](const auto& i) { return i.param; });
+INSTANTIATE_TEST_SUITE_P(Files, BadSequence, testing::ValuesIn(bad_files(kFolder)),
+                         [](const auto& i) { return i.param; });
 
 }  // namespace
-}  // namespace quell
+}  // namespace quell::test

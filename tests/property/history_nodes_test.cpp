@@ -3,7 +3,7 @@
 // and it requires others beside it. What knows albedo changes the measure of light and is not among them.
 #include "core/bench/synthetic_source.h"
 #include "tests/support/altered_frames.h"
-#include "tests/support/run_node.h"
+#include "tests/support/settings.h"
 
 #include <gtest/gtest.h>
 #include <quell/types.h>
@@ -35,14 +35,6 @@ std::vector<std::string> names() {
   return list;
 }
 
-using Setting = std::pair<std::string, std::string>;
-std::vector<Setting> settings(const NodeType& type) {
-  std::vector<Setting> list{{"", ""}};
-  for (const auto& p : type.params())
-    for (int c = 0; p.kind == QUELL_CHOICE && c < p.choice_count; ++c) list.emplace_back(p.name, p.choices[c]);
-  return list;
-}
-
 class HistoryNode : public testing::TestWithParam<std::string> {
  protected:
   using Alter = std::function<Image(const Image&, int type)>;
@@ -56,8 +48,7 @@ class HistoryNode : public testing::TestWithParam<std::string> {
   }
   // The required images, each as `alter` makes it.
   Image run(const Setting& setting, const Alter& alter) {
-    Node node(GetParam());
-    if (!setting.first.empty()) node.set(setting.first, setting.second);
+    Node node = node_of(GetParam(), setting);
     images_.clear();
     int take = 0;
     for (const auto& port : type().inputs()) {
@@ -68,13 +59,6 @@ class HistoryNode : public testing::TestWithParam<std::string> {
       node.in(port.name, images_.emplace_back(alter(plain, image_type)));
     }
     return std::move(node.run()[0]);
-  }
-  template <class Check>
-  void each_setting(Check check) const {
-    for (const auto& setting : settings(type())) {
-      SCOPED_TRACE(setting.first + " " + setting.second);
-      check(setting);
-    }
   }
   // Where no tap vouches for history there is none.
   bool has_history(int x, int y) const {
@@ -92,7 +76,7 @@ class HistoryNode : public testing::TestWithParam<std::string> {
 Image as_is(const Image& image, int) { return image.copy(); }
 
 TEST_P(HistoryNode, LeavesAConstantImageAlone) {
-  each_setting([&](const Setting& s) {
+  each_setting(type(), [&](const Setting& s) {
     const auto out = run(s, [](const Image& image, int image_type) {
       return image_type == QUELL_RADIANCE ? constant_image(kWidth, kHeight, 3, 0.7f) : image.copy();
     });
@@ -106,7 +90,7 @@ TEST_P(HistoryNode, LeavesAConstantImageAlone) {
 }
 
 TEST_P(HistoryNode, StaysInTheRangeOfItsImages) {
-  each_setting([&](const Setting& s) {
+  each_setting(type(), [&](const Setting& s) {
     const auto out = run(s, as_is);
     float low = HUGE_VALF, high = 0;
     for (const auto& image : images())
@@ -128,7 +112,7 @@ TEST_P(HistoryNode, StaysInTheRangeOfItsImages) {
 // Powers of two do not round; but a division by the extent of a box is guarded by 1e-6.
 TEST_P(HistoryNode, FollowsTheExposure) {
   for (const float scale : {0.25f, 8.0f})
-    each_setting([&](const Setting& s) {
+    each_setting(type(), [&](const Setting& s) {
       const auto out = run(s, as_is);
       const auto bright = run(s, [&](const Image& image, int t) { return brightened(image, t, scale); });
       for (int c = 0; c < 3; ++c)
@@ -141,7 +125,7 @@ TEST_P(HistoryNode, FollowsTheExposure) {
 // Sums are taken in another order, and a place between pixels is known to 4e-6 pixels only.
 TEST_P(HistoryNode, CommutesWithFlips) {
   for (const bool horizontal : {true, false})
-    each_setting([&](const Setting& s) {
+    each_setting(type(), [&](const Setting& s) {
       const auto out = run(s, as_is);
       const auto other = run(s, [&](const Image& image, int t) { return mirrored(image, t, horizontal); });
       const auto back = mirrored(other, QUELL_RADIANCE, horizontal);

@@ -1,6 +1,6 @@
 // What every spatial filter of images keeps, whatever it does: found from the tables alone, so that a new one is held
 // to this by being there. A spatial filter gives back an image like the one that it takes and needs nothing else.
-#include "tests/support/run_node.h"
+#include "tests/support/settings.h"
 #include "tests/support/typical_input.h"
 #include "tests/support/weight_oracle.h"
 
@@ -46,35 +46,17 @@ Image picture(std::uint32_t seed) {
   return image;
 }
 
-// Every choice that the node offers, by itself; other parameters at their defaults.
-using Setting = std::pair<std::string, std::string>;
-std::vector<Setting> settings(const NodeType& type) {
-  std::vector<Setting> list{{"", ""}};
-  for (const auto& p : type.params())
-    for (int c = 0; p.kind == QUELL_CHOICE && c < p.choice_count; ++c) list.emplace_back(p.name, p.choices[c]);
-  return list;
-}
-
 class SpatialFilter : public testing::TestWithParam<std::string> {
  protected:
   const NodeType& type() const { return *registry().find(GetParam()); }
   Image run(const Image& image, const Setting& setting) const {
-    Node node(GetParam());
-    if (!setting.first.empty()) node.set(setting.first, setting.second);
-    return std::move(node.in(filtered(type())->name, image).run()[0]);
-  }
-  template <class Check>
-  void each_setting(Check check) const {
-    for (const auto& setting : settings(type())) {
-      SCOPED_TRACE(setting.first + " " + setting.second);
-      check(setting);
-    }
+    return std::move(node_of(GetParam(), setting).in(filtered(type())->name, image).run()[0]);
   }
 };
 
 // P1 and P2: weights sum to 1, so what is constant stays, but for the rounding of hundreds of taps.
 TEST_P(SpatialFilter, LeavesAConstantImageAlone) {
-  each_setting([&](const Setting& s) {
+  each_setting(type(), [&](const Setting& s) {
     for (const float value : {0.0f, 0.7f, 4096.0f}) {
       const auto out = run(constant_image(kWidth, kHeight, 3, value), s);
       EXPECT_LE(largest_difference(out, [&](int, int, int) { return double(value); }), 7e-6 * double(value));
@@ -87,14 +69,14 @@ quell_reach reach_of(const NodeType& type, const Setting& setting) {
   Instance instance(type);
   for (std::size_t i = 0; i < type.params().size(); ++i)
     for (int c = 0; c < type.params()[i].choice_count; ++c)
-      if (setting == Setting(type.params()[i].name, type.params()[i].choices[c])) instance.set_int(int(i), c);
+      if (setting == Setting{type.params()[i].name, type.params()[i].choices[c]}) instance.set_int(int(i), c);
   return instance.reach()[std::size_t(type.outputs()[0].passes)];
 }
 
 // P3: no weight is negative, so nothing leaves the range of what is read around the pixel.
 TEST_P(SpatialFilter, StaysInTheRangeOfItsWindow) {
   const auto image = picture(101);
-  each_setting([&](const Setting& s) {
+  each_setting(type(), [&](const Setting& s) {
     const auto out = run(image, s);
     const auto reach = reach_of(type(), s);
     ASSERT_EQ(reach.anywhere, 0);
@@ -125,7 +107,7 @@ TEST_P(SpatialFilter, FollowsTheExposure) {
     for (int c = 0; c < 3; ++c)
       for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) bright.at(c, x, y) *= scale;
-    each_setting([&](const Setting& s) {
+    each_setting(type(), [&](const Setting& s) {
       const auto out = run(image, s), brighter = run(bright, s);
       for (int c = 0; c < 3; ++c)
         for (int y = 0; y < kHeight; ++y)
@@ -151,7 +133,7 @@ TEST_P(SpatialFilter, CommutesWithFlips) {
           const auto [u, v] = flipped(x, y);
           mirror.at(c, u, v) = whole.at(c, x, y);
         }
-    each_setting([&](const Setting& s) {
+    each_setting(type(), [&](const Setting& s) {
       const auto out = run(image, s), other = run(mirror, s);
       for (int c = 0; c < 3; ++c)
         for (int y = 0; y < height; ++y)
@@ -171,11 +153,10 @@ TEST_P(SpatialFilter, CommutesWithTransposition) {
   for (int c = 0; c < 3; ++c)
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) turned.at(c, y, x) = image.at(c, x, y);
-  each_setting([&](const Setting& s) {
-    Node other(GetParam());
-    if (!s.first.empty()) other.set(s.first, s.second);
+  each_setting(type(), [&](const Setting& s) {
+    Node other = node_of(GetParam(), s);
     if (type().find_param("direction") >= 0)
-      other.set("direction", std::string(s.second == "vertical" ? "horizontal" : "vertical"));
+      other.set("direction", std::string(s.choice == "vertical" ? "horizontal" : "vertical"));
     const auto out = run(image, s), across = std::move(other.in(filtered(type())->name, turned).run()[0]);
     for (int c = 0; c < 3; ++c)
       for (int y = 0; y < kHeight; ++y)
