@@ -6,6 +6,7 @@
 #include "core/run/executor.h"
 #include "core/sequence/image_file.h"
 #include "core/sequence/image_writer.h"
+#include "tests/support/add_type.h"
 #include "tests/support/scratch.h"
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@
 #include <set>
 #include <thread>
 
-namespace quell {
+namespace quell::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -119,12 +120,8 @@ class Files : public FrameSink {
 
 Graph graph_of(const Course& course) {
   static Registry registry({});
-  static const NodeTable<Trips> trips("trips");
-  static const quell_node* const list[] = {trips.node()};
-  static const quell_plugin_table table{QUELL_MAGIC, QUELL_ABI_MAJOR, QUELL_ABI_MINOR, sizeof(quell_plugin_table), 1,
-                                        list,        "1.0",           "test"};
-  static const bool added = (registry.add_static(&table), true);
-  EXPECT_TRUE(added && registry.problems().empty());
+  static const bool added = add_type<Trips>(registry, "trips");
+  EXPECT_TRUE(added);
   Graph g;
   g.inputs = {{"a", QUELL_SCALAR, false}};
   g.nodes.push_back({"trips", Instance(*registry.find("trips")), {{{{Source::kInput, 0}, 0, {}}}}, {QUELL_SCALAR}, {}});
@@ -215,4 +212,4 @@ INSTANTIATE_TEST_SUITE_P(Of, Failures,
                          [](const auto& test) { return std::string(test.param); });
 
 }  // namespace
-}  // namespace quell
+}  // namespace quell::test

@@ -2,6 +2,7 @@
 #include "core/lab/metric.h"
 
 #include "core/report/error.h"
+#include "tests/support/add_type.h"
 #include "tests/support/graph_nodes.h"
 #include "tests/support/scratch.h"
 
@@ -38,12 +39,8 @@ struct Judge {
 
 Registry& judges() {
   static Registry registry({});
-  static const NodeTable<Judge> table("judge");
-  static const quell_node* const nodes[] = {table.node()};
-  static const quell_plugin_table plugin = {QUELL_MAGIC, QUELL_ABI_MAJOR, QUELL_ABI_MINOR, sizeof(quell_plugin_table),
-                                            1,           nodes,           "1.0",           __VERSION__};
-  static const bool once = (registry.add_static(&plugin), true);
-  (void)once;
+  static const bool added = add_type<Judge>(registry, "judge");
+  EXPECT_TRUE(added);
   return registry;
 }
 

@@ -4,11 +4,12 @@
 #include "core/plugin/registry.h"
 #include "core/report/error.h"
 #include "core/run/executor.h"
+#include "tests/support/add_type.h"
 
 #include <gtest/gtest.h>
 #include <quell/node.h>
 
-namespace quell {
+namespace quell::test {
 namespace {
 
 struct Blend {
@@ -118,20 +119,11 @@ struct Measure {
 
 Registry& nodes() {
   static Registry registry({});
-  static const NodeTable<Blend> blend("blend");
-  static const NodeTable<Tint> tint("tint");
-  static const NodeTable<Half> half("half");
-  static const NodeTable<Sorts> sorts("sorts");
-  static const NodeTable<Likeness> likeness("likeness");
-  static const NodeTable<Filter> filter("filter");
-  static const NodeTable<Measure> measure("measure");
-  static const NodeTable<Join> join("join");
-  static const quell_node* const list[] = {blend.node(),    tint.node(),   half.node(),    sorts.node(),
-                                           likeness.node(), filter.node(), measure.node(), join.node()};
-  static const quell_plugin_table table{QUELL_MAGIC, QUELL_ABI_MAJOR, QUELL_ABI_MINOR, sizeof(quell_plugin_table), 8,
-                                        list,        "1.0",           "test"};
-  static const bool added = (registry.add_static(&table), true);
-  EXPECT_TRUE(added && registry.problems().empty());
+  static const bool added = add_type<Blend>(registry, "blend") && add_type<Tint>(registry, "tint") &&
+                            add_type<Half>(registry, "half") && add_type<Sorts>(registry, "sorts") &&
+                            add_type<Likeness>(registry, "likeness") && add_type<Filter>(registry, "filter") &&
+                            add_type<Measure>(registry, "measure") && add_type<Join>(registry, "join");
+  EXPECT_TRUE(added);
   return registry;
 }
 
@@ -311,4 +303,4 @@ TEST(Executor, ANodeWhoseImagesDoNotExistStillGivesItsValue) {
 }
 
 }  // namespace
-}  // namespace quell
+}  // namespace quell::test

@@ -1,6 +1,7 @@
 // Which threads a run uses, and how many at once.
 #include "core/plugin/registry.h"
 #include "core/run/executor.h"
+#include "tests/support/add_type.h"
 
 #include <gtest/gtest.h>
 #include <quell/node.h>
@@ -12,7 +13,7 @@
 #include <set>
 #include <thread>
 
-namespace quell {
+namespace quell::test {
 namespace {
 
 // Threads that were at work, and the most at once.
@@ -89,12 +90,8 @@ class Sink : public FrameSink {
 
 RunReport run(int threads) {
   static Registry registry({});
-  static const NodeTable<Attends> attends("attends");
-  static const quell_node* const list[] = {attends.node()};
-  static const quell_plugin_table table{QUELL_MAGIC, QUELL_ABI_MAJOR, QUELL_ABI_MINOR, sizeof(quell_plugin_table), 1,
-                                        list,        "1.0",           "test"};
-  static const bool added = (registry.add_static(&table), true);
-  EXPECT_TRUE(added && registry.problems().empty());
+  static const bool added = add_type<Attends>(registry, "attends");
+  EXPECT_TRUE(added);
   Graph g;
   g.inputs = {{"a", QUELL_SCALAR, false}};
   const auto* type = registry.find("attends");
@@ -127,4 +124,4 @@ TEST(Threads, NoMoreFilterThanWereAskedFor) {
 }
 
 }  // namespace
-}  // namespace quell
+}  // namespace quell::test

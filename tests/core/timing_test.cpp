@@ -5,6 +5,7 @@
 #include "core/bench/synthetic_source.h"
 #include "core/plugin/registry.h"
 #include "core/report/error.h"
+#include "tests/support/add_type.h"
 
 #include <gtest/gtest.h>
 #include <quell/node.h>
@@ -15,7 +16,7 @@
 #include <map>
 #include <set>
 
-namespace quell {
+namespace quell::test {
 namespace {
 
 // out = (now + before) / 2.
@@ -38,11 +39,7 @@ struct Mix {
 // Two mixers in a row; the first reads its input twice, the second what it gave a frame before.
 Graph mixers() {
   static Registry registry({});
-  static const NodeTable<Mix> mix("mix");
-  static const quell_node* const list[] = {mix.node()};
-  static const quell_plugin_table table{QUELL_MAGIC, QUELL_ABI_MAJOR, QUELL_ABI_MINOR, sizeof(quell_plugin_table), 1,
-                                        list,        "1.0",           "test"};
-  static const bool added = (registry.add_static(&table), true);
+  static const bool added = add_type<Mix>(registry, "mix");
   EXPECT_TRUE(added);
   const auto* type = registry.find("mix");
   const Wire color{{Source::kInput, 0}, 0, {}};
@@ -100,12 +97,7 @@ struct Ask {
 
 Graph asking() {
   static Registry registry({});
-  static const NodeTable<Alike> alike("alike");
-  static const NodeTable<Ask> ask("ask");
-  static const quell_node* const list[] = {alike.node(), ask.node()};
-  static const quell_plugin_table table{QUELL_MAGIC, QUELL_ABI_MAJOR, QUELL_ABI_MINOR, sizeof(quell_plugin_table), 2,
-                                        list,        "1.0",           "test"};
-  static const bool added = (registry.add_static(&table), true);
+  static const bool added = add_type<Alike>(registry, "alike") && add_type<Ask>(registry, "ask");
   EXPECT_TRUE(added);
   const Wire color{{Source::kInput, 0}, 0, {}}, weight{{0, 0}, 0, {}};
   Graph g;
@@ -309,4 +301,4 @@ TEST(Trace, EventsNestOnEveryTrack) {
 }
 
 }  // namespace
-}  // namespace quell
+}  // namespace quell::test

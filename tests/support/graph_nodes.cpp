@@ -1,10 +1,12 @@
 // The tables are built by the SDK from structs whose work is to do nothing.
 #include "tests/support/graph_nodes.h"
+#include "tests/support/add_type.h"
 #include "tests/support/paths.h"
 
 #include <quell/node.h>
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 namespace quell::test {
 
@@ -277,42 +279,22 @@ struct Grade : Idle {
   }
 };
 
-template <class T>
-void add(Registry& registry, const char* name) {
-  static const NodeTable<T> table(name);
-  static const quell_node* const nodes[] = {table.node()};
-  static const quell_plugin_table plugin = {QUELL_MAGIC, QUELL_ABI_MAJOR, QUELL_ABI_MINOR, sizeof(quell_plugin_table),
-                                            1,           nodes,           "1.0",           __VERSION__};
-  registry.add_static(&plugin);
-}
-
 }  // namespace
 
 Registry& graph_registry() {
   static Registry registry({});
-  static const bool once = [] {
-    add<Demodulate>(registry, "demodulate");
-    add<Modulate>(registry, "modulate");
-    add<DepthSlope>(registry, "depth_slope");
-    add<Disocclusion>(registry, "disocclusion");
-    add<HistoryLength>(registry, "history_length");
-    add<Reproject>(registry, "reproject");
-    add<TemporalBlend>(registry, "temporal_blend");
-    add<LuminanceMoments>(registry, "luminance_moments");
-    add<NormalWeight>(registry, "normal_weight");
-    add<PlaneWeight>(registry, "plane_weight");
-    add<DepthWeight>(registry, "depth_weight");
-    add<LuminanceWeight>(registry, "luminance_weight");
-    add<VarianceEstimate>(registry, "variance_estimate");
-    add<Gaussian>(registry, "gaussian");
-    add<Atrous>(registry, "atrous");
-    add<OutlierClamp>(registry, "outlier_clamp");
-    add<Mean>(registry, "mean");
-    add<Pack>(registry, "pack");
-    add<Grade>(registry, "grade");
-    return true;
-  }();
-  (void)once;
+  static const bool added =
+      add_type<Demodulate>(registry, "demodulate") && add_type<Modulate>(registry, "modulate") &&
+      add_type<DepthSlope>(registry, "depth_slope") && add_type<Disocclusion>(registry, "disocclusion") &&
+      add_type<HistoryLength>(registry, "history_length") && add_type<Reproject>(registry, "reproject") &&
+      add_type<TemporalBlend>(registry, "temporal_blend") &&
+      add_type<LuminanceMoments>(registry, "luminance_moments") && add_type<NormalWeight>(registry, "normal_weight") &&
+      add_type<PlaneWeight>(registry, "plane_weight") && add_type<DepthWeight>(registry, "depth_weight") &&
+      add_type<LuminanceWeight>(registry, "luminance_weight") &&
+      add_type<VarianceEstimate>(registry, "variance_estimate") && add_type<Gaussian>(registry, "gaussian") &&
+      add_type<Atrous>(registry, "atrous") && add_type<OutlierClamp>(registry, "outlier_clamp") &&
+      add_type<Mean>(registry, "mean") && add_type<Pack>(registry, "pack") && add_type<Grade>(registry, "grade");
+  EXPECT_TRUE(added);
   return registry;
 }
 
@@ -354,6 +336,35 @@ std::string shown(const Graph& g) {
   }
   for (const auto& o : g.outputs) out += fmt::format("{}{} = {}\n", o.tap ? "tap " : "", o.name, wire(o.wire));
   return out;
+}
+
+std::string svgf_file() { return std::string(QUELL_TEST_SOURCE) + "/tests/core/graphs/svgf.json"; }
+
+LoadedGraph load_svgf(std::vector<Edit> edits) {
+  GraphRequest request;
+  request.graph = svgf_file();
+  request.edits = std::move(edits);
+  return load(std::move(request));
+}
+
+std::string graph_with(std::string_view nodes, std::string_view outputs) {
+  return fmt::format(
+      R"({{"quell": 1, "inputs": {{"color": "radiance", "albedo": "albedo", "normal": "normal", "depth": "depth",
+          "id": "id?", "motion": "motion"}}, "nodes": {{{}}}, "outputs": {{{}}}}})",
+      nodes, outputs);
+}
+
+const GraphNode& node_called(const Graph& g, std::string_view name) {
+  for (const auto& n : g.nodes)
+    if (n.name == name) return n;
+  throw std::runtime_error("no node " + std::string(name));
+}
+
+std::string line_of(const LoadedGraph& l, const std::string& name) {
+  if (!l.graph) return l.messages;
+  const std::string all = "\n" + shown(*l.graph);
+  const auto at = all.find("\n" + name + " ");
+  return at == all.npos ? "" : all.substr(at + 1, all.find('\n', at + 1) - at - 1);
 }
 
 }  // namespace quell::test

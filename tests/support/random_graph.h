@@ -5,6 +5,7 @@
 #include "core/image/image.h"
 #include "core/plugin/registry.h"
 #include "core/run/executor.h"
+#include "tests/support/add_type.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -94,14 +95,9 @@ struct Filter {
 
 inline Registry& nodes() {
   static Registry registry({});
-  static const NodeTable<Mix> mix("mix");
-  static const NodeTable<Unlike> unlike("unlike");
-  static const NodeTable<Filter> filter("filter");
-  static const quell_node* const list[] = {mix.node(), unlike.node(), filter.node()};
-  static const quell_plugin_table table{QUELL_MAGIC, QUELL_ABI_MAJOR, QUELL_ABI_MINOR, sizeof(quell_plugin_table), 3,
-                                        list,        "1.0",           "test"};
-  static const bool added = (registry.add_static(&table), true);
-  EXPECT_TRUE(added && registry.problems().empty());
+  static const bool added =
+      add_type<Mix>(registry, "mix") && add_type<Unlike>(registry, "unlike") && add_type<Filter>(registry, "filter");
+  EXPECT_TRUE(added);
   return registry;
 }
 

@@ -1,0 +1,28 @@
+// What an action that must fail says of it.
+#pragma once
+
+#include "core/report/error.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+
+namespace quell::test {
+
+// The message of the exception that the action ends in, whose exit code must be this where it is an Error.
+template <class Action>
+std::string failure(Exit exit, Action action) {
+  try {
+    action();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.exit(), exit) << e.what();
+    return e.what();
+  } catch (const std::runtime_error& e) {
+    return e.what();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return "";
+}
+
+}  // namespace quell::test
