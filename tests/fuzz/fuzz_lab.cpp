@@ -1,6 +1,6 @@
 // Any bytes are a study, a suite or a tuning, or give errors that can be shown. What is one can be written out: its
-// variants have names and edits that are text and, laid over the graph, give a graph or errors; a search stays within its
-// ranges.
+// variants have names and edits that are text and, laid over the graph, give a graph or errors; a search stays within
+// its ranges.
 //
 // Node types are those of the folder QUELL_TEST_PLUGINS, where there are some. Nothing runs.
 #include "tests/fuzz/input_file.h"
