@@ -26,5 +26,5 @@ run(${CMAKE_COMMAND} -S ${WORK}/plugins -B ${WORK}/build -G ${GENERATOR} -DCMAKE
     -DCMAKE_C_COMPILER=${C_COMPILER} -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_C_FLAGS=${FLAGS} -DCMAKE_CXX_FLAGS=${FLAGS})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
-run(${WORK}/prefix/bin/quell run ${WORK}/plugins/halved.json room --source width=48 --source height=32 --frames 3
+run(${WORK}/prefix/bin/quell run ${WORK}/plugins/darkened.json room --source width=48 --source height=32 --frames 3
     --plugins ${WORK}/build --float -o "${WORK}/out/image.####.exr")

@@ -1,8 +1,8 @@
 // Plugins that were built out of tree, by the C++ SDK and in plain C, load and run, in a program that was installed and
 // moved.
 #include "core/plugin/registry.h"
+#include "tests/support/read_channels.h"
 #include "tests/support/run_node.h"
-#include "tests/support/run_sequence.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ Image applied(const char* name) {
 }
 
 TEST(Package, RunsANodeOfTheSdk) {
-  const auto out = applied("halve");
+  const auto out = applied("darken");
   EXPECT_EQ(out.at(0, 4, 0), 2.0f);
   EXPECT_EQ(out.at(0, 3, 1), 6.5f);
 }
@@ -57,7 +57,7 @@ TEST(Package, RunsInAGraphOfTheInstalledProgram) {
   const auto read = [](const char* name, const std::vector<std::string>& channels) {
     return read_channels((kWork / "out" / (std::string(name) + ".0003.exr")).string(), channels);
   };
-  const auto image = read("image", {"R", "G", "B"}), half = read("half", {"R", "G", "B"});
+  const auto image = read("image", {"R", "G", "B"}), darker = read("darker", {"R", "G", "B"});
   const auto depth = read("depth", {"Z"}), negative = read("negative", {"Y"});
   ASSERT_EQ(image.width(), 48);
   ASSERT_EQ(image.height(), 32);
@@ -65,7 +65,7 @@ TEST(Package, RunsInAGraphOfTheInstalledProgram) {
   for (int y = 0; y < 32; ++y)
     for (int x = 0; x < 48; ++x) {
       for (int c = 0; c < 3; ++c) {
-        ASSERT_EQ(half.at(c, x, y), image.at(c, x, y) * 0.5f) << x << " " << y;
+        ASSERT_EQ(darker.at(c, x, y), image.at(c, x, y) * 0.5f) << x << " " << y;
         sum += image.at(c, x, y);
       }
       ASSERT_EQ(negative.at(0, x, y), -2 * depth.at(0, x, y)) << x << " " << y;
