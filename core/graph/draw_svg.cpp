@@ -1,6 +1,7 @@
 // The picture: boxes in ranks, wires as curves between them, delayed wires dashed along the side.
 #include "core/graph/draw.h"
 #include "core/graph/drawing.h"
+#include "core/report/xml.h"
 
 #include <fmt/format.h>
 
@@ -13,29 +14,6 @@ namespace {
 
 constexpr double kBoxHeight = 38, kRow = 84, kLetter = 7.2, kPad = 20;
 constexpr double kSide = 150;  // room for delayed wires
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 32 ? ' ' : c;
-    }
-  }
-  return out;
-}
 
 const char* style_of(Box::Kind kind) {
   switch (kind) {
@@ -95,7 +73,7 @@ std::string draw_svg(const Graph& g) {
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
       "height=\"{1:.0f}\">\n<title>{2}</title>\n",
-      layout.width + kSide, layout.height, escaped(g.name.empty() ? "graph" : g.name));
+      layout.width + kSide, layout.height, xml_text(g.name.empty() ? "graph" : g.name));
   out += kStyle;
   out += "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
   for (std::size_t i = 0; i < drawing.lines.size(); ++i) {
@@ -105,8 +83,8 @@ std::string draw_svg(const Graph& g) {
         l.delay ? beside(layout.box[from], widths[from], layout.box[to], widths[to]) : downwards(layout.line[i]);
     const char* style = l.delay ? "delayed" : l.start ? "start" : l.weight ? "carries-weight" : "plain";
     out += fmt::format("<path class=\"{}\" d=\"{}\" marker-end=\"url(#tip)\"><title>{} → {}: {}{}</title></path>\n",
-                       style, path, escaped(drawing.boxes[from].name), escaped(drawing.boxes[to].name), escaped(l.text),
-                       l.delay ? fmt::format(", {} earlier", l.delay) : "");
+                       style, path, xml_text(drawing.boxes[from].name), xml_text(drawing.boxes[to].name),
+                       xml_text(l.text), l.delay ? fmt::format(", {} earlier", l.delay) : "");
   }
   for (std::size_t i = 0; i < drawing.boxes.size(); ++i) {
     const auto& b = drawing.boxes[i];
@@ -115,8 +93,8 @@ std::string draw_svg(const Graph& g) {
     out += fmt::format(
         "<g class=\"{}\"><title>{}</title><rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\" rx=\"{}\"/>"
         "<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text><text class=\"below\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text></g>\n",
-        style_of(b.kind), escaped(b.detail.empty() ? b.name : b.detail), c.x - widths[i] / 2, c.y - kBoxHeight / 2,
-        widths[i], kBoxHeight, round ? 14 : 3, c.x, c.y - 3, escaped(b.name), c.x, c.y + 13, escaped(b.below));
+        style_of(b.kind), xml_text(b.detail.empty() ? b.name : b.detail), c.x - widths[i] / 2, c.y - kBoxHeight / 2,
+        widths[i], kBoxHeight, round ? 14 : 3, c.x, c.y - 3, xml_text(b.name), c.x, c.y + 13, xml_text(b.below));
   }
   return out + "</svg>\n";
 }

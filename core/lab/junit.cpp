@@ -1,40 +1,13 @@
 // Writes JUnit's XML.
 #include "core/lab/junit.h"
 
+#include "core/report/xml.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 namespace quell {
-
-namespace {
-
-// What XML 1.0 cannot hold at all, control characters, becomes '?'.
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\n':
-        out += "&#10;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 32 && c != '\t' ? '?' : c;
-    }
-  return out;
-}
-
-}  // namespace
 
 std::string junit_xml(const std::string& suite, const std::vector<TestOutcome>& outcomes) {
   double seconds = 0;
@@ -45,19 +18,19 @@ std::string junit_xml(const std::string& suite, const std::vector<TestOutcome>& 
   std::string text = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" "
       "errors=\"{}\" time=\"{:.3f}\">\n",
-      escaped(suite), outcomes.size(), failures, errors, seconds);
+      xml_text(suite), outcomes.size(), failures, errors, seconds);
   for (const auto& o : outcomes) {
-    text += fmt::format("    <testcase name=\"{}\" classname=\"{}\" time=\"{:.3f}\"", escaped(o.name), escaped(suite),
+    text += fmt::format("    <testcase name=\"{}\" classname=\"{}\" time=\"{:.3f}\"", xml_text(o.name), xml_text(suite),
                         o.seconds);
     if (o.good()) {
       text += "/>\n";
       continue;
     }
     text += ">\n";
-    if (!o.error.empty()) text += fmt::format("      <error message=\"{}\"/>\n", escaped(o.error));
+    if (!o.error.empty()) text += fmt::format("      <error message=\"{}\"/>\n", xml_text(o.error));
     std::string all;
     for (const auto& f : o.failures) all += (all.empty() ? "" : "\n") + f;
-    if (o.error.empty()) text += fmt::format("      <failure message=\"{}\"/>\n", escaped(all));
+    if (o.error.empty()) text += fmt::format("      <failure message=\"{}\"/>\n", xml_text(all));
     text += "    </testcase>\n";
   }
   return text + "  </testsuite>\n</testsuites>\n";

@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include "tests/support/failure.h"
 #include "tests/support/run_node.h"
 #include "tests/support/scratch.h"
 
@@ -88,12 +89,7 @@ TEST_F(ColorTransform, WhatIsOutsideTheGamutIsNotNegative) {
 }
 
 std::string failure(Node& node) {
-  try {
-    node.run("image");
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-  return "none";
+  return quell::test::failure([&] { node.run("image"); });
 }
 
 TEST_F(ColorTransform, ListsTheSpacesThatThereAre) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "tests/support/failure.h"
 #include "tests/support/run_node.h"
 
 namespace {
@@ -51,12 +52,7 @@ TEST_F(DisplayTransform, TheAcesViewIsTheDefaultAndShowsGreyAsAcesSays) {
 }
 
 std::string failure(Node& node) {
-  try {
-    node.run("image");
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-  return "none";
+  return quell::test::failure([&] { node.run("image"); });
 }
 
 TEST_F(DisplayTransform, ListsWhatThereIs) {

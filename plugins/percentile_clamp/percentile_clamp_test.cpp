@@ -1,4 +1,5 @@
 // percentile_clamp against sorting each cluster.
+#include "tests/support/failure.h"
 #include "tests/support/run_node.h"
 
 #include <gtest/gtest.h>
@@ -58,12 +59,7 @@ TEST(PercentileClamp, RefusesPercentilesInTheWrongOrder) {
   const auto image = noise_image(8, 8, 3, 76);
   Node node("percentile_clamp");
   node.set("low", 0.9f).set("high", 0.1f).in("image", image);
-  try {
-    node.run("image");
-    FAIL() << "accepted";
-  } catch (const std::runtime_error& e) {
-    EXPECT_STREQ(e.what(), "low is 0.900000 and high is 0.100000: low must not exceed high");
-  }
+  EXPECT_EQ(failure([&] { node.run("image"); }), "low is 0.900000 and high is 0.100000: low must not exceed high");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // sanitize: what is bad, what takes its place, and what it says.
+#include "tests/support/failure.h"
 #include "tests/support/run_node.h"
 
 #include <gtest/gtest.h>
@@ -59,13 +60,8 @@ TEST(Sanitize, NamesThePixel) {
   image.at(1, 5, 2) = kInf;
   Node node("sanitize");
   node.set("policy", "error").in("image", image);
-  try {
-    node.run("image");
-    FAIL() << "accepted";
-  } catch (const std::runtime_error& e) {
-    EXPECT_STREQ(e.what(),
-                 "pixel (5, 2) has inf in channel 1, counted from 0; policy neighbours or zero would replace it");
-  }
+  EXPECT_EQ(failure([&] { node.run("image"); }),
+            "pixel (5, 2) has inf in channel 1, counted from 0; policy neighbours or zero would replace it");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "core/sequence/matrices.h"
 #include "core/sequence/sequence.h"
 #include "tests/support/paths.h"
+#include "tests/support/read_role.h"
 
 #include <quell/types.h>
 
@@ -13,7 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-namespace quell {
+namespace quell::test {
 namespace {
 
 class RealSequence : public testing::Test {
@@ -33,13 +34,6 @@ class RealSequence : public testing::Test {
     auto opened = sequence ? open_sequence(*sequence, {}, Missing::error, diagnostics) : nullptr;
     EXPECT_TRUE(opened) << diagnostics.format();
     return opened;
-  }
-  static Image read(FrameSource& source, std::int64_t frame, const std::string& role) {
-    const std::vector<std::string> roles = {role};
-    Image image(source.shapes(frame, roles).at(0));
-    const quell_image view = image.view();
-    source.read(frame, roles, {&view, 1});
-    return image;
   }
   static Matrix matrix(const Image& table, int row) {
     Matrix m;
@@ -63,8 +57,8 @@ class RealSequence : public testing::Test {
     int hits = 0;
   };
   static Agreement agreement(FrameSource& source, std::int64_t frame) {
-    const Image position = read(source, frame, "position"), depth = read(source, frame, "depth"),
-                camera = read(source, frame, "camera");
+    const Image position = read_role(source, frame, "position"), depth = read_role(source, frame, "depth"),
+                camera = read_role(source, frame, "camera");
     const Matrix view = matrix(camera, 0), screen = matrix(camera, 1);
     Agreement out;
     for (int y = 0; y < depth.height(); ++y)
@@ -88,8 +82,8 @@ TEST_F(RealSequence, Games202KeepsItsConventions) {
   EXPECT_LT(found.pixels, 1e-3);
   EXPECT_LT(found.depth, 1e-5);
   EXPECT_EQ(found.hits, 512 * 512 - 14140);
-  const Image id = read(*source, 3, "id"), normal = read(*source, 3, "normal"), position = read(*source, 3, "position"),
-              depth = read(*source, 3, "depth");
+  const Image id = read_role(*source, 3, "id"), normal = read_role(*source, 3, "normal"),
+              position = read_role(*source, 3, "position"), depth = read_role(*source, 3, "depth");
   int misses = 0;
   for (int y = 0; y < 512; ++y)
     for (int x = 0; x < 512; ++x) {
@@ -102,7 +96,7 @@ TEST_F(RealSequence, Games202KeepsItsConventions) {
       ASSERT_TRUE(!miss || position.at(0, x, y) == 0.0f);
     }
   EXPECT_EQ(misses, 14140);
-  EXPECT_EQ(read(*source, 3, "transforms").height(), 7);
+  EXPECT_EQ(read_role(*source, 3, "transforms").height(), 7);
 }
 
 TEST_F(RealSequence, CyclesCornellReads) {
@@ -111,11 +105,12 @@ TEST_F(RealSequence, CyclesCornellReads) {
   EXPECT_EQ(source->frames().size(), 16u);
   EXPECT_EQ(source->reference_frames(), (std::vector<std::int64_t>{4, 8, 15, 16}));
   EXPECT_EQ(source->roles().at("motion"), QUELL_MOTION);
-  EXPECT_EQ(read(*source, 8, "reference_a").width(), 480);
-  EXPECT_EQ(read(*source, 8, "transforms").height(), 10);
+  EXPECT_EQ(read_role(*source, 8, "reference_a").width(), 480);
+  EXPECT_EQ(read_role(*source, 8, "transforms").height(), 10);
   // The static floor: a point goes where motion says. Previous = current + motion.
-  const Image now = read(*source, 8, "camera"), before = read(*source, 7, "camera"), depth = read(*source, 8, "depth"),
-              motion = read(*source, 8, "motion"), id = read(*source, 8, "id");
+  const Image now = read_role(*source, 8, "camera"), before = read_role(*source, 7, "camera"),
+              depth = read_role(*source, 8, "depth"), motion = read_role(*source, 8, "motion"),
+              id = read_role(*source, 8, "id");
   Matrix screen_to_world;
   ASSERT_TRUE(invert(matrix(now, 1), screen_to_world));
   double worst = 0;
@@ -171,10 +166,10 @@ TEST_F(RealSequence, EveryCompressionReadsAlike) {
     const auto source = open_sequence(*sequence, {}, Missing::error, diagnostics);
     ASSERT_TRUE(source) << diagnostics.format();
     double sum = 0;
-    const Image color = read(*source, 8, "color");
+    const Image color = read_role(*source, 8, "color");
     for (int y = 0; y < color.height(); ++y)
       for (int x = 0; x < color.width(); ++x) sum += double(color.at(1, x, y));
-    const Image albedo = read(*source, 8, "albedo");
+    const Image albedo = read_role(*source, 8, "albedo");
     EXPECT_GT(sum, 0) << entry.path();
     EXPECT_GT(albedo.at(0, 48, 27), 0) << entry.path();
     ++read_files;
@@ -183,4 +178,4 @@ TEST_F(RealSequence, EveryCompressionReadsAlike) {
 }
 
 }  // namespace
-}  // namespace quell
+}  // namespace quell::test

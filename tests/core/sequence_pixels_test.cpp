@@ -27,7 +27,7 @@ TEST_F(SequencePixels, RepairsRadianceAndCounts) {
       {1, kNaN, kInf, -1, -kInf, 1e9f}, {2, 5, 1, 3, 1, 1}, {3, 6, 1, -0.5f, 1, 1}};
   write_planes("c_0.exr", 6, 1, kColor, planes);
   const auto source = open(load(R"({"quell_sequence": 1, "inputs": {"color": "c_@.exr"}})"));
-  const Image image = read(*source, 0, "color");
+  const Image image = read_role(*source, 0, "color");
   const float expected[3][6] = {{1, 0, 65504, 0, 0, 1e9f}, {2, 0, 1, 3, 1, 1}, {3, 0, 1, 0, 1, 1}};
   for (int c = 0; c < 3; ++c)
     for (int x = 0; x < 6; ++x) EXPECT_EQ(image.at(c, x, 0), expected[c][x]) << c << ' ' << x;
@@ -46,15 +46,15 @@ TEST_F(SequencePixels, RefusesWhatIsNotFiniteWhereItMustNotRepair) {
     "color": "c_@.exr", "emission": "d_@.exr", "depth": {"file": "z_@.exr"} }})"));
   const std::vector<std::string> strict = {"color", "depth"};
   source->refuse_non_finite(strict);
-  EXPECT_EQ(read(*source, 0, "color").at(1, 2, 1), 2.0f);
-  EXPECT_EQ(read(*source, 0, "depth").at(0, 2, 1), 4.0f);
+  EXPECT_EQ(read_role(*source, 0, "color").at(1, 2, 1), 2.0f);
+  EXPECT_EQ(read_role(*source, 0, "depth").at(0, 2, 1), 4.0f);
   const std::string way_out = "\n  an error cannot be told from such pixels; repair the file, or leave the frame out";
-  EXPECT_EQ(failure(Exit::input, [&] { read(*source, 1, "color"); }),
+  EXPECT_EQ(failure(Exit::input, [&] { read_role(*source, 1, "color"); }),
             "frame 1: " + path("c_1.exr") + ": 'color' is not finite: pixel (1, 1) holds nan in channel 'B'" + way_out);
-  EXPECT_EQ(failure(Exit::input, [&] { read(*source, 1, "depth"); }),
+  EXPECT_EQ(failure(Exit::input, [&] { read_role(*source, 1, "depth"); }),
             "frame 1: " + path("z_1.exr") + ": 'depth' is not finite: pixel (2, 1) holds nan in channel 'Z'" + way_out)
       << "an infinite depth is a miss";
-  EXPECT_EQ(read(*source, 1, "emission").at(0, 0, 0), 0.0f) << "repaired as ever";
+  EXPECT_EQ(read_role(*source, 1, "emission").at(0, 0, 0), 0.0f) << "repaired as ever";
 }
 
 TEST_F(SequencePixels, FillsWhatTheDataWindowLeavesOpen) {
@@ -90,7 +90,7 @@ TEST_F(SequencePixels, MakesEncodedColorsLinear) {
   ASSERT_TRUE(out->open(path("p_0.png"), OIIO::ImageSpec(1, 1, 3, OIIO::TypeDesc::UINT8)) &&
               out->write_image(OIIO::TypeDesc::UINT8, pixels.data()) && out->close());
   const auto source = open(load(R"({"quell_sequence": 1, "inputs": {"color": "p_@.png", "display": "p_@.png"}})"));
-  const Image color = read(*source, 0, "color"), display = read(*source, 0, "display");
+  const Image color = read_role(*source, 0, "color"), display = read_role(*source, 0, "display");
   EXPECT_EQ(color.at(0, 0, 0), 0.0f);
   EXPECT_NEAR(color.at(1, 0, 0), 0.5029, 1e-4);  // IEC 61966-2-1: ((188/255 + 0.055)/1.055)^2.4
   EXPECT_EQ(color.at(2, 0, 0), 1.0f);
@@ -109,14 +109,14 @@ TEST_F(SequencePixels, RefusesChannelsOfUnlikeParts) {
   const auto source =
       open(load(R"({"quell_sequence": 1, "inputs": {"motion": {"file": "u_@.tif", "channels": ["0.Y", "1.Y"]}}})"));
   EXPECT_EQ(
-      failure(Exit::input, [&] { read(*source, 0, "motion"); }),
+      failure(Exit::input, [&] { read_role(*source, 0, "motion"); }),
       "frame 0: " + path("u_0.tif") + ": channels '0.Y' and '1.Y' have display windows of 2 x 2 and 3 x 2 pixels");
 }
 
 TEST_F(SequencePixels, TurnsEveryMissOfDepthIntoFar) {
   write_planes("z_0.exr", 6, 1, {{"Z", 0}}, {{0, kInf, 1e10f, kNaN, 4, 77}});
   const auto source = open(load(R"({"quell_sequence": 1, "inputs": {"depth": {"file": "z_@.exr", "miss": 77}}})"));
-  const Image image = read(*source, 0, "depth");
+  const Image image = read_role(*source, 0, "depth");
   for (const int x : {0, 1, 2, 3, 5}) EXPECT_EQ(image.at(0, x, 0), kFar) << x;
   EXPECT_EQ(image.at(0, 4, 0), 4.0f);
   EXPECT_EQ(source->repairs().at("depth").non_finite, 1);
@@ -126,7 +126,7 @@ TEST_F(SequencePixels, ConvertsMotion) {
   write("m_0.exr", 8, 4, {{"X", 0.25f}, {"Y", 0.5f}});
   const auto value = [&](const std::string& keys) {
     const auto source = open(load(R"({"quell_sequence": 1, "inputs": {"motion": {"file": "m_@.exr")" + keys + "}}}"));
-    const Image image = read(*source, 0, "motion");
+    const Image image = read_role(*source, 0, "motion");
     return std::pair(image.at(0, 7, 3), image.at(1, 7, 3));
   };
   EXPECT_EQ(value(""), std::pair(0.25f, 0.5f));
@@ -140,7 +140,7 @@ TEST_F(SequencePixels, ConvertsMotion) {
 
 TEST_F(SequencePixels, ConvertsNormals) {
   write_planes("n_0.exr", 3, 1, {{"X", 0}, {"Y", 0}, {"Z", 0}}, {{0, 0, kNaN}, {3, 0, 0}, {4, 0, 1}});
-  Image image = read(*open(load(R"({"quell_sequence": 1, "inputs": {"normal": "n_@.exr"}})")), 0, "normal");
+  Image image = read_role(*open(load(R"({"quell_sequence": 1, "inputs": {"normal": "n_@.exr"}})")), 0, "normal");
   EXPECT_FLOAT_EQ(image.at(1, 0, 0), 0.6f);
   EXPECT_FLOAT_EQ(image.at(2, 0, 0), 0.8f);
   for (int c = 0; c < 3; ++c)
@@ -148,17 +148,17 @@ TEST_F(SequencePixels, ConvertsNormals) {
 
   const float none = 127.0f / 255;  // the nearest that eight bits come to no direction
   write_planes("e_0.exr", 2, 1, {{"X", 0}, {"Y", 0}, {"Z", 0}}, {{0.5f, none}, {0.5f, none}, {1, none}});
-  image = read(*open(load(R"({"quell_sequence": 1, "inputs": {"normal": {"file": "e_@.exr", "encoded": true}}})")), 0,
-               "normal");
+  image = read_role(*open(load(R"({"quell_sequence": 1, "inputs": {"normal": {"file": "e_@.exr", "encoded": true}}})")),
+                    0, "normal");
   EXPECT_EQ(image.at(2, 0, 0), 1.0f);
   for (int c = 0; c < 3; ++c) EXPECT_EQ(image.at(c, 1, 0), 0.0f);
 }
 
 TEST_F(SequencePixels, ReadsIds) {
   write_planes("i_0.exr", 4, 1, {{"Y", 0}}, {{0, 6, -1, kNaN}});
-  Image image = read(*open(load(R"({"quell_sequence": 1, "inputs": {"id": "i_@.exr"}})")), 0, "id");
+  Image image = read_role(*open(load(R"({"quell_sequence": 1, "inputs": {"id": "i_@.exr"}})")), 0, "id");
   EXPECT_EQ(std::vector(image.bits(0, 0), image.bits(0, 0) + 4), (std::vector<std::uint32_t>{0, 6, kNoId, kNoId}));
-  image = read(*open(load(R"({"quell_sequence": 1, "inputs": {"id": {"file": "i_@.exr", "miss": 0}}})")), 0, "id");
+  image = read_role(*open(load(R"({"quell_sequence": 1, "inputs": {"id": {"file": "i_@.exr", "miss": 0}}})")), 0, "id");
   EXPECT_EQ(std::vector(image.bits(0, 0), image.bits(0, 0) + 4), (std::vector<std::uint32_t>{kNoId, 6, kNoId, kNoId}));
 }
 
@@ -173,7 +173,7 @@ TEST_F(SequencePixels, TurnsDistanceIntoDepth) {
   write_planes("d_0.exr", width, height, {{"Z", 0}}, {distance});
   const auto sequence = load(R"({"quell_sequence": 1, "inputs": {"depth": {"file": "d_@.exr", "distance": true},
                                  "camera": {"file": "m_@.mat", "format": "games202"}}})");
-  const Image image = read(*open(sequence, Missing::error, {"depth"}), 0, "depth");
+  const Image image = read_role(*open(sequence, Missing::error, {"depth"}), 0, "depth");
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) ASSERT_NEAR(image.at(0, x, y), x + y > 0 ? 5.0f : kFar, 1e-5f) << x << ' ' << y;
 }
@@ -185,7 +185,7 @@ TEST_F(SequencePixels, TakesCameraSpaceToTheWorld) {
   const auto source = open(load(R"({"quell_sequence": 1, "inputs": {
       "normal": {"file": "n_@.exr", "space": "camera"}, "position": {"file": "p_@.exr", "space": "camera"},
       "camera": {"file": "m_@.mat", "format": "games202"}}})"));
-  const Image normal = read(*source, 0, "normal"), position = read(*source, 0, "position");
+  const Image normal = read_role(*source, 0, "normal"), position = read_role(*source, 0, "position");
   EXPECT_FLOAT_EQ(normal.at(0, 0, 0), 1.0f);  // forward is world +x
   EXPECT_FLOAT_EQ(normal.at(2, 0, 0), 0.0f);
   EXPECT_FLOAT_EQ(position.at(0, 0, 0), 5.0f);
@@ -193,7 +193,7 @@ TEST_F(SequencePixels, TakesCameraSpaceToTheWorld) {
   EXPECT_FLOAT_EQ(position.at(2, 0, 0), 2.5f);
   const auto world = open(load(R"({"quell_sequence": 1, "inputs": {"position": {"file": "p_@.exr", "miss": "camera"},
                                    "camera": {"file": "m_@.mat", "format": "games202"}}})"));
-  const Image kept = read(*world, 0, "position");
+  const Image kept = read_role(*world, 0, "position");
   EXPECT_EQ(kept.at(2, 0, 0), 4.0f);
   for (int c = 0; c < 3; ++c) EXPECT_EQ(kept.at(c, 1, 0), 0.0f);
 }
@@ -202,18 +202,18 @@ TEST_F(SequencePixels, ReadsMatrices) {
   write_camera("m_0.mat");
   const auto source = open(load(R"({"quell_sequence": 1, "inputs": {"camera": {"file": "m_@.mat", "format": "games202"},
                                     "transforms": {"file": "m_@.mat", "format": "games202"}}})"));
-  const Image camera = read(*source, 0, "camera");
+  const Image camera = read_role(*source, 0, "camera");
   EXPECT_EQ(camera.width(), 16);
   EXPECT_EQ(camera.height(), 2);
   EXPECT_EQ(camera.at(0, 2, 0), -1.0f);
   EXPECT_EQ(camera.at(0, 3, 0), 3.0f);
-  const Image transforms = read(*source, 0, "transforms");
+  const Image transforms = read_role(*source, 0, "transforms");
   EXPECT_EQ(transforms.height(), 1);  // no object: one identity
   EXPECT_EQ(transforms.at(0, 5, 0), 1.0f);
   std::filesystem::resize_file(path("m_0.mat"), 131);
   const auto broken =
       open(load(R"({"quell_sequence": 1, "inputs": {"transforms": {"file": "m_@.mat", "format": "games202"}}})"));
-  EXPECT_EQ(failure(Exit::input, [&] { read(*broken, 0, "transforms"); }),
+  EXPECT_EQ(failure(Exit::input, [&] { read_role(*broken, 0, "transforms"); }),
             "frame 0: " + path("m_0.mat") + ": has 131 bytes in place of the 132 that 0 objects and a camera take");
 }
 

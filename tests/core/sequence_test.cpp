@@ -25,7 +25,7 @@ TEST_F(SequenceTest, FindsItsFramesOnTheDisk) {
   const auto source = open(load(R"({"quell_sequence": 1, "inputs": {"color": "c_@.exr"}})"));
   EXPECT_EQ(source->frames(), (Frames{1, 2, 10}));
   EXPECT_EQ(source->roles(), (std::map<std::string, int>{{"color", QUELL_RADIANCE}}));
-  EXPECT_EQ(read(*source, 2, "color").at(2, 3, 2), 3.0f);
+  EXPECT_EQ(read_role(*source, 2, "color").at(2, 3, 2), 3.0f);
 }
 
 TEST_F(SequenceTest, CutsAreDeclaredOrGaps) {
@@ -84,16 +84,16 @@ TEST_F(SequenceTest, GoesOnWithoutMissingFrames) {
   const auto hold = open(sequence, Missing::hold);
   EXPECT_EQ(hold->frames(), (Frames{0, 1, 2, 3, 4}));
   EXPECT_FALSE(hold->cut_before(2));
-  EXPECT_EQ(read(*hold, 2, "color").at(0, 0, 0), 1.0f);
-  EXPECT_EQ(read(*hold, 2, "depth").at(0, 0, 0), 12.0f);
+  EXPECT_EQ(read_role(*hold, 2, "color").at(0, 0, 0), 1.0f);
+  EXPECT_EQ(read_role(*hold, 2, "depth").at(0, 0, 0), 12.0f);
 
   const auto black = open(sequence, Missing::black);
   EXPECT_EQ(black->frames(), (Frames{0, 1, 2, 3, 4}));
   EXPECT_TRUE(black->cut_before(2));
   EXPECT_TRUE(black->cut_before(3));
   EXPECT_FALSE(black->cut_before(4));
-  EXPECT_EQ(read(*black, 2, "color").at(0, 0, 0), 0.0f);
-  EXPECT_EQ(read(*black, 2, "depth").at(0, 0, 0), kFar);
+  EXPECT_EQ(read_role(*black, 2, "color").at(0, 0, 0), 0.0f);
+  EXPECT_EQ(read_role(*black, 2, "depth").at(0, 0, 0), kFar);
   EXPECT_EQ(black->missing_frames(), Frames{2});
 
   // What no graph reads need not be there.
@@ -120,13 +120,13 @@ TEST_F(SequenceTest, NamesAFrameThatCannotBeRead) {
   std::filesystem::copy(path("c_0.exr"), path("c_2.exr"));
   std::filesystem::resize_file(path("c_2.exr"), std::filesystem::file_size(path("c_2.exr")) - 9);
   const auto source = open(load(R"({"quell_sequence": 1, "frames": "0-2", "inputs": {"color": "c_@.exr"}})"));
-  EXPECT_EQ(failure(Exit::input, [&] { read(*source, 1, "color"); }),
+  EXPECT_EQ(failure(Exit::input, [&] { read_role(*source, 1, "color"); }),
             "frame 1: " + path("c_1.exr") +
                 ": has no channel 'B', unlike the first frame\n  it has: R, G, b. Did you mean 'b'?");
   EXPECT_TRUE(failure(Exit::input, [&] {
-                read(*source, 2, "color");
+                read_role(*source, 2, "color");
               }).starts_with("frame 2: " + path("c_2.exr") + ": cannot be read: "));
-  EXPECT_EQ(read(*source, 0, "color").at(1, 39, 29), 2.0f);
+  EXPECT_EQ(read_role(*source, 0, "color").at(1, 39, 29), 2.0f);
 }
 
 TEST_F(SequenceTest, SaysWhatShapeEachFrameHas) {
@@ -182,7 +182,7 @@ TEST_F(SequenceTest, ReadsReferencesWhereThereAreSome) {
   const auto source = open(load(R"({"quell_sequence": 1, "inputs": {"color": "c_@.exr"},
                                     "reference": {"A": "ref_@_a.exr", "B": "ref_@_b.exr"}})"));
   EXPECT_EQ(source->reference_frames(), Frames{2});
-  EXPECT_EQ(read(*source, 2, "reference_b").at(2, 0, 0), 9.0f);
+  EXPECT_EQ(read_role(*source, 2, "reference_b").at(2, 0, 0), 9.0f);
   EXPECT_EQ(source->frames().size(), 4u);
 }
 
@@ -204,8 +204,8 @@ TEST_F(SequenceTest, RecognisesALoneImage) {
   // The normal is in camera space, and there is no camera.
   EXPECT_EQ(source->roles(),
             (std::map<std::string, int>{{"color", QUELL_RADIANCE}, {"depth", QUELL_DEPTH}, {"motion", QUELL_MOTION}}));
-  EXPECT_EQ(read(*source, 1, "motion").at(1, 0, 0), -6.0f);
-  EXPECT_EQ(read(*source, 1, "depth").at(0, 0, 0), kFar);
+  EXPECT_EQ(read_role(*source, 1, "motion").at(1, 0, 0), -6.0f);
+  EXPECT_EQ(read_role(*source, 1, "depth").at(0, 0, 0), kFar);
 }
 
 TEST_F(SequenceTest, ListsWhatAnUnknownImageHas) {
@@ -236,7 +236,7 @@ TEST_F(SequenceTest, LaysADocumentOverAProfile) {
   const auto value = [&](const std::string& keys) {
     const auto source = open(load(
         R"({"quell_sequence": 1, "profile": "falcor", "inputs": {"motion": {"file": "mvec.@.exr")" + keys + "}}}"));
-    return read(*source, 0, "motion").at(0, 0, 0);
+    return read_role(*source, 0, "motion").at(0, 0, 0);
   };
   EXPECT_EQ(value(""), 2.0f);  // Falcor's fractions of the width
   EXPECT_EQ(value(R"(, "scale": 4)"), 1.0f);

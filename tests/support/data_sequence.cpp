@@ -1,6 +1,7 @@
 // Opens real sequences for tests.
 #include "tests/support/data_sequence.h"
 #include "tests/support/paths.h"
+#include "tests/support/read_role.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -24,12 +25,6 @@ DataSequence::DataSequence(const std::string& name, const std::string& folder, c
   if (!files_) throw std::runtime_error(diagnostics.format());
 }
 
-Image DataSequence::read(std::int64_t frame, const std::string& role) {
-  const std::vector<std::string> roles = {role};
-  Image image(files_->shapes(frame, roles).at(0));
-  const quell_image view = image.view();
-  files_->read(frame, roles, {&view, 1});
-  return image;
-}
+Image DataSequence::read(std::int64_t frame, const std::string& role) { return read_role(*files_, frame, role); }
 
 }  // namespace quell::test

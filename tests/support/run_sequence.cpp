@@ -9,8 +9,6 @@
 #include "tests/support/paths.h"
 #include "tests/support/run_node.h"
 
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
@@ -97,24 +95,6 @@ SequenceResult run_sequence(const SequenceRun& run) {
 std::string test_data() {
   const char* folder = std::getenv("QUELL_TEST_DATA");
   return folder ? folder : "";
-}
-
-Image read_channels(const std::string& path, const std::vector<std::string>& channels) {
-  const auto input = OIIO::ImageInput::open(path);
-  if (!input) throw std::runtime_error(path + ": " + OIIO::geterror());
-  const auto& spec = input->spec();
-  Image image(spec.width, spec.height, int(channels.size()));
-  std::vector<float> plane(std::size_t(spec.width) * std::size_t(spec.height));
-  for (std::size_t i = 0; i < channels.size(); ++i) {
-    const auto it = std::ranges::find(spec.channelnames, channels[i]);
-    if (it == spec.channelnames.end()) throw std::runtime_error(path + " has no channel " + channels[i]);
-    const int c = int(it - spec.channelnames.begin());
-    if (!input->read_image(0, 0, c, c + 1, OIIO::TypeDesc::FLOAT, plane.data()))
-      throw std::runtime_error(path + ": " + input->geterror());
-    for (int y = 0; y < spec.height; ++y)
-      std::copy_n(plane.data() + std::size_t(y) * std::size_t(spec.width), spec.width, image.row(int(i), y));
-  }
-  return image;
 }
 
 }  // namespace quell::test

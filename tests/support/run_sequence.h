@@ -34,7 +34,4 @@ SequenceResult run_sequence(const SequenceRun&);
 // The folder of real frames, or "" when QUELL_TEST_DATA is not set.
 std::string test_data();
 
-// One image of channels of a file, as they are.
-Image read_channels(const std::string& path, const std::vector<std::string>& channels);
-
 }  // namespace quell::test

@@ -4,6 +4,7 @@
 #include "core/image/image.h"
 #include "core/sequence/sequence.h"
 #include "tests/support/paths.h"
+#include "tests/support/read_role.h"
 #include "tests/support/scratch.h"
 
 #include <OpenImageIO/imageio.h>
@@ -74,13 +75,6 @@ class SequenceTest : public testing::Test {
     auto source = open_sequence(sequence, roles, missing, diagnostics_);
     if (!source) throw std::runtime_error(diagnostics_.format());
     return source;
-  }
-  static Image read(FrameSource& source, std::int64_t frame, const std::string& role) {
-    const std::vector<std::string> roles = {role};
-    Image image(source.shapes(frame, roles).at(0));
-    const quell_image view = image.view();
-    source.read(frame, roles, {&view, 1});
-    return image;
   }
   static std::filesystem::path profiles() { return std::filesystem::path(QUELL_TEST_SOURCE) / "graphs/profiles"; }
 

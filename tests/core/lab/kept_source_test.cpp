@@ -2,12 +2,13 @@
 #include "core/lab/kept_source.h"
 
 #include "core/image/image.h"
+#include "tests/support/read_role.h"
+#include "tests/support/run_node.h"
 #include "tests/support/scratch.h"
 
 #include <gtest/gtest.h>
 #include <quell/types.h>
 
-#include <bit>
 #include <filesystem>
 
 namespace quell::test {
@@ -40,21 +41,7 @@ class Made : public FrameSource {
   int* asked_;
 };
 
-Image frame_of(FrameSource& source, std::int64_t frame) {
-  const std::string role = "color";
-  Image image(source.shapes(frame, std::span(&role, 1))[0]);
-  const auto view = image.view();
-  source.read(frame, std::span(&role, 1), std::span(&view, 1));
-  return image;
-}
-
-void expect_equal(const Image& a, const Image& b) {
-  ASSERT_EQ(a.width(), b.width());
-  for (int c = 0; c < 3; ++c)
-    for (int y = 0; y < a.height(); ++y)
-      for (int x = 0; x < a.width(); ++x)
-        ASSERT_EQ(std::bit_cast<std::uint32_t>(a.at(c, x, y)), std::bit_cast<std::uint32_t>(b.at(c, x, y)));
-}
+Image frame_of(FrameSource& source, std::int64_t frame) { return read_role(source, frame, "color"); }
 
 TEST(KeptSource, MakesAFrameOnceAndGivesItsBitsEverAfter) {
   const Scratch scratch;
@@ -62,13 +49,13 @@ TEST(KeptSource, MakesAFrameOnceAndGivesItsBitsEverAfter) {
   Made made(5, &asked_again);
   for (int run = 0; run < 2; ++run) {
     KeptSource kept(std::make_unique<Made>(5, &asked), "color", scratch.path("kept"));
-    for (const std::int64_t frame : {3, 4}) expect_equal(frame_of(kept, frame), frame_of(made, frame));
+    for (const std::int64_t frame : {3, 4}) EXPECT_TRUE(same_bits(frame_of(kept, frame), frame_of(made, frame)));
     EXPECT_TRUE(kept.cut_before(3));
   }
   EXPECT_EQ(asked, 2);
   std::filesystem::remove(scratch.path("kept") + "/frame.0004.exr");
   KeptSource kept(std::make_unique<Made>(5, &asked), "color", scratch.path("kept"));
-  expect_equal(frame_of(kept, 4), frame_of(made, 4));
+  EXPECT_TRUE(same_bits(frame_of(kept, 4), frame_of(made, 4)));
   EXPECT_EQ(asked, 3);
 }
 

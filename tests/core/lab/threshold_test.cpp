@@ -1,21 +1,15 @@
 // Conditions on metrics: what they mean, and what is said of those that mean nothing.
 #include "core/lab/threshold.h"
 
-#include "core/report/error.h"
+#include "tests/support/failure.h"
 
 #include <gtest/gtest.h>
 
-namespace quell {
+namespace quell::test {
 namespace {
 
 std::string refusal(const char* text) {
-  try {
-    parse_threshold(text, "--fail");
-  } catch (const Error& e) {
-    EXPECT_EQ(e.exit(), Exit::usage);
-    return e.what();
-  }
-  return "accepted";
+  return failure(Exit::usage, [&] { parse_threshold(text, "--fail"); });
 }
 
 TEST(Threshold, Relations) {
@@ -49,4 +43,4 @@ TEST(Threshold, Refusals) {
 }
 
 }  // namespace
-}  // namespace quell
+}  // namespace quell::test
