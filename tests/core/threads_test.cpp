@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -25,6 +26,7 @@ class Attendance {
       const std::scoped_lock lock(all_.mutex_);
       all_.threads_.insert(std::this_thread::get_id());
       all_.most_ = std::max(all_.most_, ++all_.now_);
+      all_.came_.notify_all();
     }
     ~Here() {
       const std::scoped_lock lock(all_.mutex_);
@@ -36,14 +38,22 @@ class Attendance {
    private:
     Attendance& all_;
   };
-  void clear() { threads_.clear(), most_ = 0; }
+  // `company`: whether more than one thread is expected.
+  void clear(bool company) { threads_.clear(), most_ = 0, awaited_ = company; }
+  // Until two have been here at once, however busy the machine is; where nobody comes, one wait is enough.
+  void await_company() {
+    std::unique_lock lock(mutex_);
+    if (awaited_) awaited_ = came_.wait_for(lock, std::chrono::seconds(20), [this] { return most_ > 1; });
+  }
   const std::set<std::thread::id>& threads() const { return threads_; }
   int most() const { return most_; }
 
  private:
   std::mutex mutex_;
+  std::condition_variable came_;
   std::set<std::thread::id> threads_;
   int now_ = 0, most_ = 0;
+  bool awaited_ = false;
 };
 
 Attendance filtering, all;
@@ -58,6 +68,7 @@ struct Attends {
   }
   void run(const Tile& t) const {
     const Attendance::Here here(filtering), too(all);
+    filtering.await_company();
     std::this_thread::sleep_for(std::chrono::microseconds(200));
     for (int y = t.y0; y < t.y1; ++y) std::copy_n(t.row(image, 0, y) + t.x0, t.x1 - t.x0, t.row(out, 0, y) + t.x0);
   }
@@ -97,7 +108,7 @@ RunReport run(int threads) {
   const auto* type = registry.find("attends");
   g.nodes.push_back({"node", Instance(*type), {{{{Source::kInput, 0}, 0, {}}}}, {QUELL_SCALAR}, {}});
   g.outputs = {{"out", {{0, 0}, 0, {}}, QUELL_SCALAR, false}};
-  filtering.clear(), all.clear();
+  filtering.clear(threads > 1), all.clear(false);
   Frames source;
   Sink sink;
   RunOptions options;
