@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 namespace quell {
@@ -40,7 +41,16 @@ Storage storage_of(oiio::TypeDesc type) {
   }
 }
 
-ImagePart part_of(const oiio::ImageSpec& spec, int index) {
+// Of the file, not of its format's standard: PNM is Rec. 709 by its own, but no program writes or shows it so.
+void take_encoding(const oiio::ImageSpec& spec, std::string_view format, ImagePart& part) {
+  if (format == "pnm") return;
+  part.color_space = spec.get_string_attribute("oiio:ColorSpace");
+  // A gamma may stand beside a colour space that says more than it.
+  const bool plain = part.color_space.empty() || part.color_space.starts_with("Gamma");
+  if (plain) part.gamma = std::round(100.0 * double(spec.get_float_attribute("oiio:Gamma"))) / 100.0;
+}
+
+ImagePart part_of(const oiio::ImageSpec& spec, std::string_view format, int index) {
   ImagePart part;
   part.name = spec.get_string_attribute("oiio:subimagename", std::to_string(index));
   part.data = {spec.x, spec.y, spec.width, spec.height};
@@ -49,7 +59,7 @@ ImagePart part_of(const oiio::ImageSpec& spec, int index) {
   part.depth = spec.depth;
   part.pixel_bytes = spec.pixel_bytes(true);
   part.deep = spec.deep;
-  part.display_encoded = spec.get_string_attribute("oiio:ColorSpace") == "sRGB";
+  take_encoding(spec, format, part);
   for (int i = 0; i < spec.nchannels; ++i)
     part.channels.push_back({spec.channel_name(i), storage_of(spec.channelformat(i))});
   return part;
@@ -111,10 +121,14 @@ void store(const std::uint32_t* from, int step, bool id, float* to, int n) {
 
 class OiioReader : public ImageReader {
  public:
-  explicit OiioReader(const std::string& path) : input_(oiio::ImageInput::open(path)) {
+  explicit OiioReader(const std::string& path) {
+    // Channels as they are stored: not colours times alpha, and least of all normals or ids.
+    oiio::ImageSpec wishes;
+    wishes.attribute("oiio:UnassociatedAlpha", 1);
+    input_ = oiio::ImageInput::open(path, &wishes);
     if (!input_) throw std::runtime_error(oiio::geterror());
     for (int i = 0; i < kMostParts && (i == 0 || input_->seek_subimage(i, 0)); ++i)
-      parts_.push_back(part_of(input_->spec(), i));
+      parts_.push_back(part_of(input_->spec(), input_->format_name(), i));
     // Asking for a part that is not there leaves a message behind.
     if (input_->has_error()) input_->geterror();
   }

@@ -13,6 +13,13 @@
 
 namespace quell {
 
+namespace {
+
+// Y is gray only where it is alone: beside X and Z it is an axis, beside RY and BY it has lost its hue.
+bool may_be_gray(int type) { return type == QUELL_RADIANCE || type == QUELL_ALBEDO; }
+
+}  // namespace
+
 std::vector<std::string> find_channels(const std::vector<std::string>& names, const ChannelChoice& choice, int type) {
   if (!choice.channels.empty()) {
     const auto layer = layer_with(names, choice.channels, choice.layered);
@@ -23,6 +30,8 @@ std::vector<std::string> find_channels(const std::vector<std::string>& names, co
   }
   for (const auto& usual : usual_channels(type))
     if (layer_with(names, usual, false)) return usual;
+  if (may_be_gray(type) && (names == std::vector<std::string>{"Y"} || names == std::vector<std::string>{"Y", "A"}))
+    return {"Y", "Y", "Y"};
   // A lone channel can only be what is asked for.
   return names.size() == 1 && type_info(type)->channels == 1 ? names : std::vector<std::string>();
 }
@@ -37,10 +46,12 @@ void report_channels(const SequenceInput& input, const std::string& path, const 
   if (choice.channels.empty()) {
     std::vector<std::string> usual;
     for (const auto& u : usual_channels(input.type)) usual.push_back(fmt::format("{}", fmt::join(u, " ")));
-    diagnostics.error(input.position, input.where,
-                      fmt::format("'{}' has no channels by the usual names of {}", path, type_name(input.type)),
-                      {fmt::format("usual names: {}", fmt::join(usual, ", ")), possibilities("it has", "", names),
-                       "name them with \"channels\""});
+    if (may_be_gray(input.type)) usual.emplace_back("Y alone");
+    diagnostics.error(
+        input.position, input.where,
+        fmt::format("'{}' has no channels by the usual names of {}", path, type_name(input.type)),
+        {fmt::format("usual names: {}", fmt::join(usual, ", ")), possibilities("it has", "", names),
+         input.where.empty() ? "name them in a sequence file, with \"channels\"" : "name them with \"channels\""});
   }
 }
 

@@ -25,10 +25,6 @@ constexpr float kShortest = 1e-6f;
 // Eight bits cannot say "no direction": the nearest to 0 that they hold has length 0.007.
 constexpr float kShortestEncoded = 1.0f / 64.0f;
 
-float linear_from_srgb(float v) {  // IEC 61966-2-1
-  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
-
 bool never_negative(int type) {
   return type == QUELL_RADIANCE || type == QUELL_ALBEDO || type == QUELL_VARIANCE || type == QUELL_COUNT;
 }
@@ -82,7 +78,8 @@ class Converter {
       if (c_.scale_by_size && i < 2) factor_[i] *= float(i == 0 ? image.width : image.height);
       if (c_.flip_y && i == 1) factor_[i] = -factor_[i];
     }
-    per_pixel_ = c_.miss || c_.display || c_.encoded || c_.reciprocal || c_.needs_camera();
+    encoded_light_ = c_.light.curve != ColorEncoding::Curve::linear;
+    per_pixel_ = c_.miss || encoded_light_ || c_.encoded || c_.reciprocal || c_.needs_camera();
   }
 
   void row(int y, Found& found) const {
@@ -145,7 +142,7 @@ class Converter {
   void transform(Row row, int x, int y) const {
     for (std::size_t i = 0; i < row.size(); ++i) {
       float v = row[i][x];
-      if (c_.display) v = linear_from_srgb(v);
+      if (encoded_light_) v = linear_light(c_.light, v);
       if (c_.encoded) v = 2.0f * v - 1.0f;
       v *= factor_[i];
       if (c_.reciprocal) v = 1.0f / v;
@@ -212,6 +209,7 @@ class Converter {
   Matrix view_to_world_ = kIdentity;
   std::optional<Rays> rays_;
   std::vector<float> factor_;
+  bool encoded_light_ = false;
   bool per_pixel_ = false;  // more than factors and repairs
 };
 

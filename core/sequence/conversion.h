@@ -1,6 +1,7 @@
 // From what a renderer wrote to the conventions of <quell/types.h>: a closed list of conversions, then repairs.
 #pragma once
 
+#include "core/sequence/color_encoding.h"
 #include "core/sequence/frame_source.h"
 #include "core/sequence/image_file.h"
 #include "core/sequence/matrices.h"
@@ -16,7 +17,7 @@ namespace quell {
 struct Conversion {
   std::optional<float> miss;    // the file's value where nothing was hit
   bool miss_is_camera = false;  // position: the camera's own position where nothing was hit
-  bool display = false;         // sRGB-encoded values to linear ones
+  ColorEncoding light;          // encoded colours to linear ones
   bool encoded = false;         // [0,1] to [-1,1]
   bool negate = false;
   std::vector<float> scale;    // one factor, or one a channel

@@ -271,6 +271,15 @@ class FileSequence::Impl {
                 fmt::format("{}: has no channel '{}', unlike the first frame\n  {}", file.path(), name, note));
   }
 
+  static ColorEncoding encoding_of(const ImageFile& file, const Bound& bound) {
+    auto encoding = file.encoding(channel_of(file, bound.channels.front()));
+    if (encoding.curve == ColorEncoding::Curve::unknown)
+      throw Error(Exit::input, fmt::format("{}: its colours are encoded as '{}', which is not decoded\n  convert it to "
+                                           "linear OpenEXR, or to sRGB",
+                                           file.path(), encoding.name));
+    return encoding;
+  }
+
   void read_file(const std::string& path, std::span<const std::size_t> members, std::int64_t frame,
                  std::span<const std::string> roles, std::span<const quell_image> into) {
     std::vector<ChannelRead> reads;
@@ -309,7 +318,7 @@ class FileSequence::Impl {
       const Bound& bound = bound_of(roles[i]);
       Conversion conversion = bound.conversion;
       const bool color = bound.input->type == QUELL_RADIANCE || bound.input->type == QUELL_ALBEDO;
-      conversion.display = color && file.display_encoded(channel_of(file, bound.channels.front()));
+      if (color) conversion.light = encoding_of(file, bound);
       const FrameMatrices* camera =
           conversion.needs_camera() ? &matrices(*camera_, stand_in(*camera_, frame)) : nullptr;
       const auto broken = convert(into[i], bound.input->type, window, conversion, camera, repairs_[roles[i]]);

@@ -125,10 +125,11 @@ Window ImageFile::covered(int channel) const {
           clamped(y + data.height, display.height)};
 }
 
-bool ImageFile::display_encoded(int channel) const {
+ColorEncoding ImageFile::encoding(int channel) const {
   const auto storage = channels_[std::size_t(channel)].storage;
-  return part_of(channel).display_encoded &&
-         (storage == FileChannel::Storage::byte || storage == FileChannel::Storage::word);
+  const auto& part = part_of(channel);
+  return color_encoding(part.color_space, part.gamma,
+                        storage == FileChannel::Storage::byte || storage == FileChannel::Storage::word);
 }
 
 void ImageFile::read(std::span<const ChannelRead> reads, std::ptrdiff_t pitch) {

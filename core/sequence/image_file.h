@@ -1,6 +1,8 @@
 // One image file, OpenEXR or of any format that OpenImageIO reads, as named channels of planar float32.
 #pragma once
 
+#include "core/sequence/color_encoding.h"
+
 #include <quell/abi.h>
 
 #include <cstddef>
@@ -61,8 +63,8 @@ class ImageFile {
   quell_shape size(int channel) const;
   // The part of the image that the data window covers, in pixels of the display window.
   Window covered(int channel) const;
-  // Values are encoded for a display (PNG, JPEG), not linear.
-  bool display_encoded(int channel) const;
+  // Of a channel that holds colour.
+  ColorEncoding encoding(int channel) const;
 
   // Reads the covered pixels of some channels; other pixels stay as they are. A channel may be read more than once.
   // Shares the work among the threads of the caller's arena. Throws Error(Exit::input).

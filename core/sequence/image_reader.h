@@ -30,7 +30,8 @@ struct ImagePart {
   int tile_width = 0, tile_height = 0;  // 0: scan lines
   int depth = 1;                        // of a volume
   bool deep = false;
-  bool display_encoded = false;  // sRGB
+  std::string color_space;  // as the file states it, by its name in OpenImageIO
+  double gamma = 0;         // as the file states it, or 0
   std::vector<Channel> channels;
   std::size_t pixel_bytes = 0;  // of all channels, in the file
 

@@ -8,9 +8,9 @@
 
 namespace quell {
 
-// A sequence with one role, `color`, from the channels R G B of a pattern's files, or Y; encoded files are decoded from
-// sRGB. Frames are those on the disk, or `range` (--frames); a file without a number is frame 0. Throws
-// Error(Exit::input) when there are none and Error(Exit::usage) for a range that is none.
+// A sequence with one role, `color`, from the channels R G B of a pattern's files, or Y where it is gray. Frames are
+// those on the disk, or `range` (--frames); a file without a number is frame 0. Throws Error(Exit::input) when there
+// are none and Error(Exit::usage) for a range that is none.
 Sequence pictures(const std::string& pattern, const std::optional<std::string>& range);
 
 }  // namespace quell

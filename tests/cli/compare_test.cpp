@@ -65,6 +65,18 @@ TEST_F(Compare, SinglePicturesOfAnotherTool) {
   EXPECT_EQ(mean(j, "a.exr", "relmse"), 0);
 }
 
+// Whole numbers without a colour space are sRGB, and gray is a colour.
+TEST_F(Compare, PicturesOfOtherToolsAreTakenAsTheyAreShown) {
+  write("gray.pgm", "P5\n24 16\n255\n" + std::string(24 * 16, '\xBC'));
+  write("rgb.ppm", "P6\n24 16\n255\n" + std::string(3 * 24 * 16, '\xBC'));
+  write_color("light.exr", 24, 16, float(std::pow((188.0 / 255 + 0.055) / 1.055, 2.4)));
+  const auto r = compare({"gray.pgm", "rgb.ppm", "--reference", "light.exr", "--metric", "rmse", "--json", "n.json"});
+  ASSERT_EQ(r.exit, 0) << r.err;
+  const auto j = numbers("n.json");
+  EXPECT_EQ(mean(j, "gray.pgm", "rmse"), mean(j, "rgb.ppm", "rmse"));
+  EXPECT_LT(mean(j, "rgb.ppm", "rmse"), 1.0 / 4096);  // half has 11 bits
+}
+
 TEST_F(Compare, ThresholdsDecideTheExitCode) {
   const std::vector<std::string> args = {"near.####.exr", "--reference", "truth.####.exr", "--metric", "mse"};
   EXPECT_EQ(compare(args + std::vector<std::string>{"--fail", "mse > 0.1"}).exit, 0);

@@ -110,7 +110,7 @@ TEST_F(SequenceTest, NamesChannelsThatAreNotThere) {
                       "' has no channel 'Layer.Depht.Z'\n  it has: R, Layer.Deep.Z, Layer.Depth.Z. Did you mean "
                       "'Layer.Depth.Z'?\n" +
                       path("sequence.json") + ":1:104: error: inputs.color: '" + path("c_0.exr") +
-                      "' has no channels by the usual names of radiance\n  usual names: R G B, r g b\n"
+                      "' has no channels by the usual names of radiance\n  usual names: R G B, r g b, Y alone\n"
                       "  it has: R, Layer.Deep.Z, Layer.Depth.Z\n  name them with \"channels\"\n");
 }
 
