@@ -57,7 +57,7 @@ struct Study {
 
 // More is a mistake, and is refused before it takes anybody's time.
 inline constexpr std::size_t kMaxVariants = 1000;
-inline constexpr std::size_t kMaxListed = 1000;  // sequences, metrics, seeds, tests of a suite, conditions of a test
+inline constexpr std::size_t kMaxListed = 1000;  // of sequences, metrics, seeds, tests, their conditions and images
 
 struct StudyRequest {
   std::string path;              // a file, or an installed study when it has neither a slash nor ".json"

@@ -102,6 +102,8 @@ class SuiteParser {
     std::string problem = "must be a frame range such as \"7,15\"";
     const auto range = text(*j, "frames", path);
     auto frames = range ? parse_frame_range(*range, problem) : std::nullopt;
+    if (frames && frames->size() > kMaxListed)
+      problem = fmt::format("names {} frames; the most are {}", frames->size(), kMaxListed), frames.reset();
     if (frames)
       images.frames = std::move(*frames);
     else

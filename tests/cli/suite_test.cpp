@@ -87,7 +87,9 @@ TEST_F(SuiteCommand, WhatIsWrongWithASuiteIsSaidBeforeAnyTestRuns) {
     "a": { "graph": "unfilterd", "sequence": "shot.json", "fail": ["rmse > 1"] },
     "b": { "graph": "unfiltered", "sequence": "shot.json", "fail": ["rmze > 1", "rmse"] },
     "c": { "graph": "unfiltered", "sequence": "shot.json" },
-    "d": { "graph": "unfiltered", "golden": { "frames": "x", "share": 2 }, "speed": 1 }
+    "d": { "graph": "unfiltered", "golden": { "frames": "x", "share": 2 }, "speed": 1 },
+    "e": { "graph": "unfiltered", "sequence": "shut", "golden": { "frames": "0-5000" } },
+    "f": { "sequence": ["shot.json"], "fail": ["rmse > 1"] }
   }
 })");
   auto r = test({});
@@ -102,6 +104,10 @@ TEST_F(SuiteCommand, WhatIsWrongWithASuiteIsSaidBeforeAnyTestRuns) {
   EXPECT_NE(r.err.find("tests.d: unknown key 'speed'"), std::string::npos) << r.err;
   EXPECT_NE(r.err.find("tests.d.golden.share: must be a number from 0 to 1, not 2"), std::string::npos) << r.err;
   EXPECT_NE(r.err.find("tests.d: has no \"sequence\""), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("suite.json:8:47: error: tests.e.sequence: there is no sequence 'shut'"), std::string::npos)
+      << r.err;
+  EXPECT_NE(r.err.find("tests.e.golden.frames: names 5001 frames; the most are 1000"), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("tests.f.sequence: a test has one sequence, not a list"), std::string::npos) << r.err;
 
   write("suite.json", R"({
   "quell_suite": 1,

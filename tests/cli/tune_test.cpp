@@ -113,6 +113,10 @@ TEST_F(Tune, SaysWhatIsWrong) {
   expect("there is no statistic 'most'");
   tuning(R"("stops": { "from": 0, "to": 3 })", "flicker", 5);
   expect("'flicker' reads 'motion'");
+  write("tune.json", R"({ "quell_tune": 1, "graph": "brighten.json", "train": ["rooom"], "held_out": [],
+    "parameters": { "stops": { "from": 0, "to": 3 } }, "minimise": "rmse" })");
+  expect("tune.json:1:56: error: train[0]: there is no sequence 'rooom'");
+  expect("tune.json:1:78: error: held_out: is empty; it lists the sequences to tune on");
   tuning(R"("stops": { "from": 0, "to": 3 })", "rmse", 0);
   expect("evaluations: must be a number from 1 to 100000, not 0");
 }
