@@ -79,7 +79,7 @@ int run(const AblateArguments& a) {
   options.images = a.images ? WrittenImages::all : WrittenImages::few;
   options.version = QUELL_VERSION;
   options.simd = simd_in_use();
-  options.metadata = {{"Software", "quell " QUELL_VERSION}, {"quell:study", study->name}};
+  options.command = command_line();
   options.say = [&](const std::string& line) {
     if (!a.progress.quiet) fmt::print(stderr, "{}\n", line);
   };

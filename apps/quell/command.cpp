@@ -170,10 +170,6 @@ std::optional<Graph> Commander::load(GraphRequest request, const Sequence* seque
   return load_graph(request, registry_, diagnostics_, info);
 }
 
-const NodeType* Commander::made_by(const Sequence& sequence) {
-  return sequence.source ? registry_.find(sequence.source->type) : nullptr;
-}
-
 namespace {
 
 // --source NAME=VALUE: as with --set, JSON when it is that, else text.

@@ -56,8 +56,6 @@ class Commander {
   // Opens the frames for what the graph reads.
   std::unique_ptr<FrameSource> open(const Sequence&, const SequenceOptions&, const std::vector<std::string>& roles,
                                     int threads, const std::atomic<bool>* cancel);
-  // The node type that makes the frames; nullptr where files do.
-  const NodeType* made_by(const Sequence&);
   // Prints what was collected to stderr and gives the exit code of the worst of it. Plugins that were passed over
   // because they would not load are warned about.
   int report();

@@ -4,11 +4,14 @@
 #include "apps/quell/options.h"
 #include "apps/quell/previews.h"
 
+#include "core/graph/narrow.h"
+#include "core/graph/write.h"
 #include "core/lab/halves.h"
 #include "core/lab/merge.h"
 #include "core/lab/metric.h"
 #include "core/report/shell.h"
 #include "core/report/suggest.h"
+#include "core/run/provenance.h"
 #include "core/sequence/frame_pattern.h"
 #include "core/sequence/image_writer.h"
 
@@ -24,20 +27,15 @@ namespace quell {
 
 namespace {
 
+constexpr const char* kPicture = "picture_";  // and its number: the role of a picture
 constexpr const char* kUsual[] = {"psnr_unbiased", "relmse", "psnr_pu", "ssim", "flip", "flicker"};
 
-// A metric, and what of a frame it needs.
+// A metric, and frames before the current one whose references it needs; -1: it needs none.
 struct Judge {
   Metric metric;
-  bool needs_reference = false;
-  bool looks_back = false;
+  int back;
 
-  explicit Judge(Metric m) : metric(std::move(m)) {
-    for (const auto& input : metric.graph.inputs) needs_reference |= is_reference(input.name);
-    for (const auto& node : metric.graph.nodes)
-      for (const auto& port : node.in)
-        for (const auto& wire : port) looks_back |= wire.delay > 0;
-  }
+  explicit Judge(Metric m) : metric(std::move(m)), back(reference_frames_back(metric.graph)) {}
 };
 
 // Where an output of the merged graph belongs.
@@ -45,6 +43,14 @@ struct Place {
   enum class Kind { value, pixels, map };
   std::size_t picture, metric;
   Kind kind;
+};
+
+// An error image: the graph that makes it and nothing else, and what the current frame's says of how it was made.
+struct Map {
+  std::size_t picture, metric;
+  Graph graph;
+  std::optional<Provenance> provenance = {};
+  Texts texts = {};
 };
 
 class Comparison {
@@ -59,6 +65,10 @@ class Comparison {
     options.threads = request_.threads;
     options.cancel = request_.cancel;
     options.progress = progress;
+    const FileLog log(*source_);
+    for (auto& map : maps_)
+      map.provenance.emplace(map.graph, *source_, log,
+                             Provenance::Run{command_line(), simd_in_use(), "error", {}, graphs()});
     Sink sink(*this);
     describe();
     run_graph(graph_, *source_, sink, options);
@@ -69,6 +79,9 @@ class Comparison {
   class Sink : public FrameSink {
    public:
     explicit Sink(Comparison& all) : all_(all) {}
+    void history_begins(std::int64_t frame) override {
+      for (auto& map : all_.maps_) map.provenance->history_begins(frame);
+    }
     void write(std::int64_t frame, std::span<const quell_image> outputs) override { all_.collect(frame, outputs); }
 
    private:
@@ -115,7 +128,7 @@ class Comparison {
       roles.push_back(role_of(i)), names.push_back(request_.pictures[i].name);
     for (const bool references : {true, false})
       for (const auto& [role, type] : source_->roles())
-        if (is_reference(role) == references && role.find(' ') == role.npos && type != QUELL_CAMERA &&
+        if (is_reference(role) == references && !role.starts_with(kPicture) && type != QUELL_CAMERA &&
             type != QUELL_TRANSFORMS)
           roles.push_back(role), names.push_back(references ? "the reference" : "the sequence's " + role);
     // Later frames of another size end the run, which says it less well; to look at all of them now would read each
@@ -128,7 +141,7 @@ class Comparison {
                                              shapes[i].height, names[0], shapes[0].width, shapes[0].height));
   }
 
-  static std::string role_of(std::size_t picture) { return fmt::format("picture {}", picture); }
+  static std::string role_of(std::size_t picture) { return fmt::format("{}{}", kPicture, picture); }
 
   // All that the metrics could read of a sequence.
   std::set<std::string> wanted_roles() {
@@ -195,9 +208,8 @@ class Comparison {
   // ---- The graph ----
 
   void build() {
-    std::vector<Graph> graphs;
     for (std::size_t i = 0; i < request_.pictures.size(); ++i) {
-      auto& graph = graphs.emplace_back();
+      auto& graph = graphs_.emplace_back();
       graph.name = request_.pictures[i].name;
       graph.inputs = {{role_of(i), QUELL_RADIANCE, false}};
       graph.outputs = {{"color", {{Source::kInput, 0}, 0, {}}, QUELL_RADIANCE, false}};
@@ -207,10 +219,11 @@ class Comparison {
       graph.outputs.erase(graph.outputs.begin());
     }
     std::vector<MergePart> parts;
-    for (const auto& graph : graphs) parts.push_back({graph.name, &graph});
+    for (const auto& graph : graphs_) parts.push_back({graph.name, &graph});
     graph_ = merge(parts).graph;
-    for (std::size_t i = 0; i < graphs.size(); ++i)
-      for (const auto& output : graphs[i].outputs) {
+    for (std::size_t i = 0; i < graphs_.size(); ++i)
+      for (std::size_t o = 0; o < graphs_[i].outputs.size(); ++o) {
+        auto& output = graphs_[i].outputs[o];
         const auto dot = output.name.rfind('.');
         const auto judge = std::ranges::find_if(
             judges_, [&](const Judge& j) { return j.metric.name == std::string_view(output.name).substr(0, dot); });
@@ -219,6 +232,9 @@ class Comparison {
                            kind == "value"    ? Place::Kind::value
                            : kind == "pixels" ? Place::Kind::pixels
                                               : Place::Kind::map});
+        if (kind == "map") maps_.push_back({i, places_.back().metric, narrowed(graphs_[i], o, "map")});
+        // As a graph file can say it.
+        output.name[dot] = '_', output.tap = false;
       }
     if (!request_.maps.empty()) add_previews(graph_, {.wanted = true, .graph = {}, .set = {}}, commander_);
   }
@@ -234,10 +250,12 @@ class Comparison {
     for (const auto& j : judges_)
       r.metrics.push_back(
           {j.metric.name, j.metric.title, j.metric.key.unit, j.metric.key.higher_is_better, j.metric.key.perfect});
-    for (const auto& p : request_.pictures) {
+    for (std::size_t i = 0; i < graphs_.size(); ++i) {
+      const auto& p = request_.pictures[i];
       ResultVariant v;
       v.name = p.name, v.about = p.text, v.edits = "{}";
-      v.command = shell_text(command_line()), v.fingerprint = fingerprint(graph_);
+      v.command = shell_text(command_line()), v.fingerprint = fingerprint(graphs_[i]);
+      v.graph = write_graph(graphs_[i], graphs()).text;
       r.variants.push_back(std::move(v));
     }
     const auto size = source_->shapes(source_->frames().front(), std::vector<std::string>{role_of(0)}).front();
@@ -254,12 +272,13 @@ class Comparison {
   }
 
   void collect(std::int64_t frame, std::span<const quell_image> outputs) {
-    const bool now = has_reference(frame);
+    in_a_row_ = has_reference(frame) ? in_a_row_ + 1 : 0;
+    for (auto& map : maps_) map.texts = map.provenance->texts(frame);
     for (std::size_t i = 0; i < outputs.size(); ++i) {
       const auto& output = graph_.outputs[i];
       const Place place = places_[output.shows < 0 ? i : std::size_t(output.shows)];
       const auto& judge = judges_[place.metric];
-      if (judge.needs_reference && !(now && (before_ || !judge.looks_back))) continue;
+      if (in_a_row_ <= std::min(judge.back, int(at_))) continue;
       auto& number = results_.numbers[0][0][place.picture][at_][place.metric];
       const float found = outputs[i].plane[0][0];
       if (place.kind == Place::Kind::map)
@@ -272,7 +291,7 @@ class Comparison {
     // A frame without pixels has no number, whichever of the two came first.
     for (auto* number : empty_) number->reset();
     empty_.clear();
-    before_ = now, ++at_;
+    ++at_;
   }
 
   void write_map(const Place& place, std::int64_t frame, const quell_image& image, const GraphOutput& output) const {
@@ -281,7 +300,15 @@ class Comparison {
         name, [](char c) { return c == '/' || c == '#' || c == '@' || c == '%'; }, '_');
     const std::string file = fmt::format("{}/{}.{}.####.{}", request_.maps, name, judges_[place.metric].metric.name,
                                          output.shows < 0 ? "exr" : "png");
-    write_image(FramePattern(file).path(frame), image, output.type);
+    WriteOptions options;
+    const auto& map = *std::ranges::find_if(
+        maps_, [&](const Map& m) { return m.picture == place.picture && m.metric == place.metric; });
+    options.metadata = map.texts;
+    GraphOutput written = map.graph.outputs[0];
+    written.type = output.type;
+    if (output.shows >= 0) written.shows = 0;
+    options.metadata["quell:output"] = output_text(map.graph, written, options);
+    write_image(FramePattern(file).path(frame), image, output.type, options);
   }
 
   Commander& commander_;
@@ -289,12 +316,14 @@ class Comparison {
   JoinedSource* joined_ = nullptr;
   std::unique_ptr<FrameSource> source_;
   std::vector<Judge> judges_;
-  Graph graph_;
+  std::vector<Graph> graphs_;  // by picture
+  Graph graph_;                // merged of them
+  std::vector<Map> maps_;
   std::vector<Place> places_;  // of the outputs that are no previews
   Results results_;
   std::vector<std::optional<double>*> empty_;
-  std::size_t at_ = 0;   // of the frame among all
-  bool before_ = false;  // the frame before it has a reference
+  std::size_t at_ = 0;  // of the frame among all
+  int in_a_row_ = 0;    // frames with a reference, up to this one
 };
 
 }  // namespace

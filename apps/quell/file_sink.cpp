@@ -26,17 +26,6 @@ std::string beside(const std::string& first, const std::string& output) {
   return (path.parent_path() / (output + ".####" + path.extension().string())).string();
 }
 
-// What `quell rerun` must know to write this output again.
-std::string output_text(const Graph& graph, const GraphOutput& output, const WriteOptions& options) {
-  nlohmann::ordered_json json{{"name", output.name}, {"type", type_name(output.type)}};
-  if (output.shows >= 0) json["preview_of"] = graph.outputs[std::size_t(output.shows)].name;
-  if (output.tap && output.shows < 0) json["tap"] = reference_text(graph, output.wire);
-  json["half"] = options.half;
-  json["compression"] = options.compression.name;
-  if (options.compression.level) json["level"] = *options.compression.level;
-  return json.dump();
-}
-
 }  // namespace
 
 FileSink::FileSink(const Graph& graph, const Sequence& sequence, std::span<const std::int64_t> frames,

@@ -26,7 +26,7 @@ void ProgressOption::add_to(CLI::App& app) {
       ->check(one_of({"auto", "json", "none"}))
       ->type_name("")
       ->capture_default_str();
-  app.add_flag("--quiet", quiet, "Prints errors, warnings and failures only.");
+  app.add_flag("-q,--quiet", quiet, "Prints errors, warnings and failures only.");
 }
 
 ProgressStyle ProgressOption::style() const {

@@ -5,6 +5,7 @@
 #include "apps/quell/options.h"
 #include "apps/quell/picture_difference.h"
 #include "apps/quell/recorded.h"
+#include "apps/quell/recorded_frames.h"
 
 #include "core/run/executor.h"
 #include "core/sequence/excerpt.h"
@@ -84,15 +85,13 @@ class LastFrame : public FrameSink {
   Provenance& provenance_;
 };
 
-void check_output(const RerunArguments& a, const Sequence& sequence, const Recorded& then) {
+void check_output(const RerunArguments& a, const RecordedFrames& frames, const Recorded& then) {
   if (a.output.empty()) return;
   const auto whole = [](const std::string& path) { return fs::absolute(path).lexically_normal(); };
   if (fs::path(a.output).extension() != fs::path(a.frame).extension())
     throw Error(Exit::usage, fmt::format("-o {}: must end as {} does, to be compared with it", a.output, a.frame));
-  bool read = whole(a.output) == whole(a.frame);
-  for (std::int64_t frame = then.first; frame <= then.frame; ++frame)
-    for (const auto& input : sequence.inputs) read |= whole(a.output) == whole(input.file.path(frame));
-  if (read) throw Error(Exit::usage, fmt::format("-o {}: is a file that is read; choose another", a.output));
+  if (whole(a.output) == whole(a.frame) || frames.reads(a.output, then.first, then.frame))
+    throw Error(Exit::usage, fmt::format("-o {}: is a file that is read; choose another", a.output));
   check_writable(a.output);
 }
 
@@ -115,20 +114,6 @@ void use_simd(const std::string& name) {
   }
 }
 
-std::unique_ptr<FrameSource> open(Commander& commander, const Sequence& sequence, const Recorded& then,
-                                  const RerunArguments& a, const std::vector<std::string>& roles,
-                                  const std::atomic<bool>* cancel) {
-  SequenceOptions options;
-  options.missing = then.missing;
-  try {
-    return commander.open(sequence, options, roles, a.threads, cancel);
-  } catch (const Error& e) {
-    if (e.exit() != Exit::input || !a.root.empty()) throw;
-    throw Error(e.exit(), fmt::format("{}\n  --root FOLDER says where its files are now; they were in {}", e.what(),
-                                      sequence.root.string()));
-  }
-}
-
 int rerun(const RerunArguments& a) {
   const auto& cancel = watch_interrupts();
   const Recorded then = read_recorded(a.frame);
@@ -136,40 +121,33 @@ int rerun(const RerunArguments& a) {
   if (!missing_from_name(then.missing))
     throw Error(Exit::usage, fmt::format("{}: its attribute 'quell:missing' is '{}'", a.frame, then.missing));
   Commander commander(a.plugins);
-  SequenceRequest shot;
-  shot.path = fmt::format("{} (quell:sequence)", a.frame);
-  shot.text = then.sequence;
-  if (!a.root.empty()) shot.root = a.root;
-  // Whether a frame is there decides how others are read, so then all must be looked for.
-  if (then.missing == "error" || then.missing == "skip")
-    shot.frames =
-        then.first == then.frame ? fmt::format("{}", then.frame) : fmt::format("{}-{}", then.first, then.frame);
-  const auto sequence = commander.load(shot);
+  const auto recorded = RecordedFrames::load(commander, a.frame, then, a.root);
   GraphRequest request;
   request.graph = fmt::format("{} (quell:graph)", a.frame);
   request.text = then.graph;
   for (const auto& file : then.files) request.edits.push_back({Edit::Kind::set, file});
   if (!then.tap.empty()) request.edits.push_back({Edit::Kind::tap, then.tap});
-  const auto graph = sequence ? commander.load(request, &*sequence) : std::nullopt;
+  if (recorded) request.roles = recorded->roles();
+  const auto graph = recorded ? commander.load(request, nullptr) : std::nullopt;
   if (!graph) return commander.report();
   const std::string name = then.tap.empty() ? then.output : then.tap;
   const auto output = std::ranges::find(graph->outputs, name, &GraphOutput::name);
   if (output == graph->outputs.end())
     throw Error(Exit::usage, fmt::format("{}: its graph has no output '{}', which it says to hold", a.frame, name));
-  check_output(a, *sequence, then);
+  check_output(a, *recorded, then);
   check_state(then);
 
   std::vector<std::string> roles;
   for (const auto& input : graph->inputs) roles.push_back(input.name);
-  const auto all = open(commander, *sequence, then, a, roles, &cancel);
+  const auto all = recorded->open(commander, roles, a.threads, &cancel);
   if (const int code = commander.report(); !all || code) return code ? code : int(Exit::input);
   Excerpt frames(*all, then.first, then.frame);
   if (frames.frames().empty() || frames.frames().back() != then.frame)
     throw Error(Exit::usage, fmt::format("{}: frame {} is not in its sequence", a.frame, then.frame));
 
-  const NodeType* source = commander.made_by(*sequence);
-  Provenance provenance(
-      *graph, frames, {command_line(), simd_in_use(), then.missing, then.state, commander.locations().graphs, source});
+  const FileLog log(frames);
+  Provenance provenance(*graph, frames, log,
+                        {command_line(), simd_in_use(), then.missing, then.state, commander.locations().graphs});
   const TemporaryFolder folder;
   const std::string path =
       a.output.empty() ? (folder.path() / ("again" + fs::path(a.frame).extension().string())).string() : a.output;
@@ -183,7 +161,7 @@ int rerun(const RerunArguments& a) {
   run.cancel = &cancel;
   run_graph(*graph, frames, sink, run);
 
-  auto changes = changes_of_program(then, plugin_versions(*graph, source), *graph);
+  auto changes = changes_of_program(then, plugin_versions(*graph, frames), *graph);
   const auto files = changes_of_files(then, provenance, sink.history);
   changes.insert(changes.end(), files.begin(), files.end());
   const std::string difference = picture_difference(a.frame, path);
@@ -200,9 +178,9 @@ int rerun(const RerunArguments& a) {
 }  // namespace
 
 void add_rerun(CLI::App& app, int& exit) {
-  auto* sub = app.add_subcommand("rerun", "Makes an image of 'quell run' again and tells whether it is the same.");
+  auto* sub = app.add_subcommand("rerun", "Makes an image that Quell wrote again and tells whether it is the same.");
   auto a = std::make_shared<RerunArguments>();
-  sub->add_option("frame", a->frame, "An image that 'quell run' wrote: it says how it was made.")
+  sub->add_option("frame", a->frame, "An image that Quell wrote: it says how it was made.")
       ->required()
       ->type_name("FRAME");
   sub->add_option("-o,--output", a->output, "Keeps the new image.")->type_name("FILE");

@@ -85,9 +85,10 @@ int run(const RunArguments& a) {
   const int code = commander.report();
   if (!frames || code) return code ? code : int(Exit::input);
 
-  Provenance provenance(*graph, *frames,
-                        {command_line(), simd_in_use(), a.sequence.missing, a.load_state, commander.locations().graphs,
-                         commander.made_by(*sequence)});
+  const FileLog log(*frames);
+  Provenance provenance(
+      *graph, *frames, log,
+      {command_line(), simd_in_use(), a.sequence.missing, a.load_state, commander.locations().graphs});
   FileSink sink(*graph, *sequence, frames->frames(), a.output, write_options(a), provenance);
   if (!a.save_state.empty()) check_writable(a.save_state);
   if (!a.report.empty() && a.report != "-") check_writable(a.report);

@@ -90,6 +90,8 @@ int run(const TestArguments& a) {
   options.run.cancel = &cancel;
   options.update_golden = a.update;
   options.failures = a.failures;
+  options.command = command_line();
+  options.simd = simd_in_use();
   std::vector<TestOutcome> outcomes;
   for (std::size_t i = 0; i < tests.size(); ++i) {
     const auto& test = suite->tests[tests[i]];
@@ -125,7 +127,7 @@ void add_test(CLI::App& app, int& exit) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   a->simd.add_to(*sub);
-  sub->add_flag("--quiet", a->quiet, "Prints failures and the closing line only.");
+  sub->add_flag("-q,--quiet", a->quiet, "Prints failures and the closing line only.");
   a->plugins.add_to(*sub);
   sub->footer(
       "Ends with exit code 1 when a test fails. In GitHub Actions failures are shown beside their lines.\n"

@@ -153,7 +153,7 @@ void add_tune(CLI::App& app, int& exit) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   a->simd.add_to(*sub);
-  sub->add_flag("--quiet", a->quiet, "Prints no steps.");
+  sub->add_flag("-q,--quiet", a->quiet, "Prints no steps.");
   a->plugins.add_to(*sub);
   sub->footer(
       "The search is Nelder and Mead's simplex, held to the ranges: deterministic, and resumable because the same "

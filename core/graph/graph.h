@@ -5,6 +5,7 @@
 #include "core/plugin/node_type.h"
 #include "core/report/diagnostics.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,14 @@ struct Graph {
   int type_of(Source s) const {
     return s.node == Source::kInput ? inputs[std::size_t(s.port)].type
                                     : nodes[std::size_t(s.node)].out_types[std::size_t(s.port)];
+  }
+  // Whether anything is read of earlier frames.
+  bool looks_back() const {
+    const auto delayed = [](const Wire& wire) { return wire.delay > 0; };
+    return std::ranges::any_of(outputs, delayed, &GraphOutput::wire) ||
+           std::ranges::any_of(nodes, [&](const GraphNode& node) {
+             return std::ranges::any_of(node.in, [&](const auto& port) { return std::ranges::any_of(port, delayed); });
+           });
   }
 };
 

@@ -57,7 +57,8 @@ class StudyRun {
     for (std::size_t v = 0; v < study_.variants.size(); ++v) {
       const auto& declared = study_.variants[v];
       const auto& graph = trials_[0].variants()[v];
-      r.variants.push_back({declared.name, declared.about, edits_text(declared.edits), fingerprint(graph.plain),
+      r.variants.push_back({declared.name, declared.about, edits_text(declared.edits),
+                            write_graph(graph.plain, lab_.graphs).text, fingerprint(graph.plain),
                             run_command(study_, declared), int(graph.plain.nodes.size()), own[v], declared.baseline});
     }
     out_.times.resize(study_.variants.size());
@@ -85,15 +86,6 @@ class StudyRun {
       for (const auto i : {first, first + (frames.size() - 1 - first) / 2, frames.size() - 1})
         images.frames.insert(frames[i]);
     }
-    Study here = study_;
-    here.sequences = {study_.sequences[s]};
-    for (std::size_t v = 0; v < study_.variants.size(); ++v) {
-      const auto& graph = trials_[s].variants()[v].plain;
-      images.attributes.push_back({{"quell:graph", write_graph(graph, lab_.graphs).text},
-                                   {"quell:fingerprint", fingerprint(graph)},
-                                   {"quell:variant", study_.variants[v].name},
-                                   {"quell:command", run_command(here, study_.variants[v])}});
-    }
     return images;
   }
 
@@ -109,8 +101,7 @@ class StudyRun {
 
   // Images of one variant, and of what all variants see, that are listed and have gone.
   bool images_there(const Trial& trial, const StudyImages& images, std::size_t variant) const {
-    std::vector<ResultImage> listed;
-    list_images(trial, images, 0, listed);
+    const auto listed = images.list(study_, trial, 0, options_.folder);
     return std::ranges::all_of(listed, [&](const ResultImage& image) {
       return (image.variant && *image.variant != variant) || fs::exists(options_.folder / image.file);
     });
@@ -131,19 +122,26 @@ class StudyRun {
     for (std::size_t v = 0; v < count; ++v)
       if (!entry(v)) pending.push_back(v);
     const auto frames = trial.sequence().frames.size();
-    const auto started = part_of(journal, keys);
+    auto started = part_of(journal, keys);
     auto source = open(trial, seed);
+    FileLog log(*source);
+    if (started && !log.take(started->files)) started.reset();
     if (s == out_.results.sequences.size()) add_sequence(trial, *source, images);
     if (pending.empty()) total_ -= frames;
     bool first = true;
     const auto run_group_of = [&](const std::vector<std::size_t>& variants, JournalPart part) {
       if (!std::exchange(first, false)) total_ += frames;
       const Group group(study_, trial, variants, seed == 0);
-      GroupOptions options{options_.run, seed == 0 ? &images : nullptr, options_.metadata, {}};
+      const Provenance::Run made{options_.command, options_.simd, "error", {}, lab_.graphs};
+      std::optional<StudyImageWriter> writer;
+      if (seed == 0)
+        writer.emplace(study_, trial, images, group.shown(),
+                       StudyImageWriter::Made{*source, log, made, {{"quell:study", study_.name}}});
+      GroupOptions options{options_.run, writer ? &*writer : nullptr, &log, {}};
       options.run.overlap = false;  // so that times are those of the nodes alone
       total_ -= part.entries.front().numbers.size();
       options.done = [&](std::int64_t frame) { options_.progress({frame, ++done_, total_}); };
-      run_group(group, *source, trial, std::move(part), journal, options);
+      run_group(group, *source, std::move(part), journal, options);
     };
     if (started) {
       std::vector<std::size_t> variants;
@@ -193,24 +191,8 @@ class StudyRun {
     const std::string role = trial.roles().contains("color") ? "color" : graph.inputs[0].name;
     const auto shape = source.shapes(source.frames()[0], std::span(&role, 1))[0];
     out_.results.sequences.push_back({declared.name, declared.written, shape.width, shape.height, source.frames()});
-    list_images(trial, images, s, out_.results.images);
-  }
-
-  void list_images(const Trial& trial, const StudyImages& images, std::size_t s, std::vector<ResultImage>& all) const {
-    const auto relative = [&](const std::string& file) { return fs::path(file).lexically_relative(options_.folder); };
-    for (const auto frame : trial.sequence().frames) {
-      if (!images.frames.contains(frame)) continue;
-      if (trial.roles().contains("color")) all.push_back({"input", {}, s, frame, {}, relative(images.input(frame))});
-      if (trial.reference_frames().contains(frame))
-        all.push_back({"reference", {}, s, frame, {}, relative(images.reference(frame))});
-      for (std::size_t v = 0; v < study_.variants.size(); ++v) {
-        const auto& name = study_.variants[v].name;
-        all.push_back({"output", v, s, frame, {}, relative(images.output(name, frame))});
-        for (std::size_t m = 0; m < trial.metrics().size(); ++m)
-          if (trial.variants()[v].metrics[m].map >= 0)
-            all.push_back({"map", v, s, frame, m, relative(images.map(trial.metrics()[m].name, name, frame))});
-      }
-    }
+    const auto listed = images.list(study_, trial, s, options_.folder);
+    out_.results.images.insert(out_.results.images.end(), listed.begin(), listed.end());
   }
 
   // All together where memory suffices, else halves of them, and so on.

@@ -18,7 +18,7 @@ struct AblationOptions {
   std::filesystem::path folder;  // for results
   RunOptions run;                // threads, max_memory, cancel
   WrittenImages images = WrittenImages::few;
-  std::map<std::string, std::string> metadata;  // of images
+  std::vector<std::string> command;
   std::string version, simd;
   std::function<void(const Progress&)> progress;
   std::function<void(const std::string&)> say;  // a line for people

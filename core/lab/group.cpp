@@ -2,7 +2,6 @@
 #include "core/lab/group_run.h"
 
 #include "core/report/error.h"
-#include "core/sequence/image_writer.h"
 
 #include <quell/types.h>
 
@@ -11,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 namespace quell {
 
@@ -19,51 +17,10 @@ namespace {
 
 const std::string kInput = "color";
 
-std::string frame_text(std::int64_t frame) { return fmt::format("{:04}", frame); }
-
-// Frames before the current one whose references enter a metric's number; 64 at most, as through a loop.
-int frames_back(const Graph& metric) {
-  constexpr int kMost = 64;
-  constexpr int kNever = -1;
-  // By node: the most frames back that a reference is read, kNever where none is.
-  std::vector<int> back(metric.nodes.size(), kNever);
-  const auto of = [&](const Source& s) {
-    if (s.node >= 0) return back[std::size_t(s.node)];
-    return s.node == Source::kInput && is_reference(metric.inputs[std::size_t(s.port)].name) ? 0 : kNever;
-  };
-  const auto through = [&](const Wire& w) {
-    const int from = of(w.from);
-    return from == kNever ? of(w.start) : std::min(kMost, from + w.delay);
-  };
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::size_t n = 0; n < metric.nodes.size(); ++n)
-      for (const auto& port : metric.nodes[n].in)
-        for (const auto& wire : port)
-          if (const int b = through(wire); b > back[n]) back[n] = b, changed = true;
-  }
-  int most = kNever;
-  for (const auto& out : metric.outputs) most = std::max(most, through(out.wire));
-  return most;
-}
-
 // The shortest decimal number that this float is nearest to, so that results read as people would write them.
 double written(float number) { return std::stod(fmt::format("{}", number)); }
 
 }  // namespace
-
-std::string StudyImages::output(const std::string& variant, std::int64_t frame) const {
-  return (folder / fmt::format("{}.{}.exr", variant, frame_text(frame))).string();
-}
-std::string StudyImages::map(const std::string& metric, const std::string& variant, std::int64_t frame) const {
-  return (folder / "maps" / metric / fmt::format("{}.{}.exr", variant, frame_text(frame))).string();
-}
-std::string StudyImages::input(std::int64_t frame) const {
-  return (folder / fmt::format("{}.input.exr", frame_text(frame))).string();
-}
-std::string StudyImages::reference(std::int64_t frame) const {
-  return (folder / fmt::format("{}.reference.exr", frame_text(frame))).string();
-}
 
 Group::Group(const Study& study, const Trial& trial, std::vector<std::size_t> variants, bool images)
     : study_(&study), trial_(&trial), variants_(std::move(variants)) {
@@ -97,7 +54,6 @@ Group::Group(const Study& study, const Trial& trial, std::vector<std::size_t> va
     for (const auto* nodes : {&own_.back(), &judging_.back()})
       for (const int n : *nodes) ++users_[std::size_t(n)];
   }
-  for (const auto& metric : trial.metrics()) looks_back_.push_back(frames_back(metric.graph));
 }
 
 std::vector<int> Group::unshared() const {
@@ -115,24 +71,14 @@ std::vector<std::string> Group::roles() const {
   return roles;
 }
 
-// Whether all references are there that the number of this frame is made from.
-bool Group::judged_by_reference(std::size_t metric, std::int64_t frame, const std::set<std::int64_t>& with) const {
-  const auto& frames = trial_->sequence().frames;
-  const auto at = std::ranges::find(frames, frame) - frames.begin();
-  for (std::ptrdiff_t i = at; i >= 0 && i >= at - looks_back_[metric]; --i)
-    if (!with.contains(frames[std::size_t(i)])) return looks_back_[metric] < 0;
-  return true;
-}
-
-void Group::take(std::int64_t frame, std::span<const quell_image> outputs, const std::set<std::int64_t>& with,
-                 std::span<JournalEntry> entries) const {
+void Group::take(std::int64_t frame, std::span<const quell_image> outputs, std::span<JournalEntry> entries) const {
   for (std::size_t p = 0; p < variants_.size(); ++p) {
     const auto& judged = trial_->variants()[variants_[p]];
     auto& numbers = entries[p].numbers.emplace_back();
     for (std::size_t m = 0; m < judged.metrics.size(); ++m) {
       const auto number = [&](int output) { return outputs[first_output_[p] + std::size_t(output)].plane[0][0]; };
       const auto& at = judged.metrics[m];
-      const bool counts = judged_by_reference(m, frame, with) && (at.pixels < 0 || number(at.pixels) > 0);
+      const bool counts = trial_->judges(m, frame) && (at.pixels < 0 || number(at.pixels) > 0);
       if (!counts) {
         numbers.push_back(std::nullopt);
         continue;
@@ -147,29 +93,20 @@ void Group::take(std::int64_t frame, std::span<const quell_image> outputs, const
   }
 }
 
-void Group::write(std::int64_t frame, std::span<const quell_image> outputs, const StudyImages& images,
-                  const std::map<std::string, std::string>& metadata) const {
-  if (!images.frames.contains(frame)) return;
-  WriteOptions options;
+std::vector<ShownOutput> Group::shown() const {
+  using Kind = ShownOutput::Kind;
+  std::vector<ShownOutput> all;
   for (std::size_t p = 0; p < variants_.size(); ++p) {
     const auto& judged = trial_->variants()[variants_[p]];
-    const auto& name = study_->variants[variants_[p]].name;
-    const auto image = [&](int output) { return outputs[first_output_[p] + std::size_t(output)]; };
-    options.metadata = metadata;
-    if (!images.attributes.empty())
-      options.metadata.insert(images.attributes[variants_[p]].begin(), images.attributes[variants_[p]].end());
-    write_image(images.output(name, frame), image(judged.judged), QUELL_RADIANCE, options);
+    all.push_back({Kind::output, first_output_[p] + std::size_t(judged.judged), variants_[p]});
     for (std::size_t m = 0; m < judged.metrics.size(); ++m)
       if (const int map = judged.metrics[m].map; map >= 0)
-        write_image(images.map(trial_->metrics()[m].name, name, frame), image(map), QUELL_SCALAR, options);
+        all.push_back({Kind::map, first_output_[p] + std::size_t(map), variants_[p], m});
   }
-  options.metadata = metadata;
-  const std::size_t first = outputs.size() - seen_.outputs.size();
-  for (std::size_t i = 0; i < seen_.outputs.size(); ++i) {
-    const bool input = seen_.outputs[i].name == kInput;
-    if (input || trial_->reference_frames().contains(frame))
-      write_image(input ? images.input(frame) : images.reference(frame), outputs[first + i], QUELL_RADIANCE, options);
-  }
+  const std::size_t first = merged_.graph.outputs.size() - seen_.outputs.size();
+  for (std::size_t i = 0; i < seen_.outputs.size(); ++i)
+    all.push_back({seen_.outputs[i].name == kInput ? Kind::input : Kind::reference, first + i});
+  return all;
 }
 
 void Group::charge(std::span<const double> busy, std::span<JournalEntry> entries) const {

@@ -21,11 +21,20 @@ class MeanOfHalves : public FrameSource {
   bool declared_cut(std::int64_t frame) const override { return source_->declared_cut(frame); }
   const std::map<std::string, int>& roles() const override { return roles_; }
   std::map<std::string, Repairs> repairs() const override { return source_->repairs(); }
-  void refuse_non_finite(std::span<const std::string> roles) override {
-    std::vector<std::string> theirs(roles.begin(), roles.end());
-    if (std::erase(theirs, kReference))
-      theirs.insert(theirs.end(), std::begin(kReferenceHalves), std::end(kReferenceHalves));
-    source_->refuse_non_finite(theirs);
+  void refuse_non_finite(std::span<const std::string> roles) override { source_->refuse_non_finite(read_for(roles)); }
+  // Reading it makes the mean again.
+  std::string description(const std::filesystem::path& graphs, std::span<const std::string> roles) const override {
+    return source_->description(graphs, read_for(roles));
+  }
+  std::map<std::string, std::string> plugins(std::span<const std::string> roles) const override {
+    return source_->plugins(read_for(roles));
+  }
+  void watch_files(FileWatcher watcher) override {
+    source_->watch_files([watcher](const FileRead& read) {
+      FileRead here = read;
+      if (std::ranges::any_of(read.roles, is_reference)) here.roles.emplace_back(kReference);
+      watcher(here);
+    });
   }
 
   std::vector<quell_shape> shapes(std::int64_t frame, std::span<const std::string> roles) override {
@@ -65,6 +74,15 @@ class MeanOfHalves : public FrameSource {
   }
 
  private:
+  // What is read of the source: halves for their mean.
+  static std::vector<std::string> read_for(std::span<const std::string> roles) {
+    std::vector<std::string> theirs(roles.begin(), roles.end());
+    if (std::erase(theirs, kReference))
+      for (const auto half : kReferenceHalves)
+        if (std::ranges::find(theirs, half) == theirs.end()) theirs.emplace_back(half);
+    return theirs;
+  }
+
   std::unique_ptr<FrameSource> source_;
   std::map<std::string, int> roles_;
 };

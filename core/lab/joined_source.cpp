@@ -3,8 +3,11 @@
 
 #include "core/image/image.h"
 #include "core/report/error.h"
+#include "core/sequence/frame_range.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -69,6 +72,7 @@ std::vector<quell_shape> JoinedSource::shapes(std::int64_t frame, std::span<cons
 }
 
 void JoinedSource::read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) {
+  reading_ = frame;
   split(roles, [&](const Part& part, const auto& names, const auto& places) {
     if (!has(part, frame)) {
       for (const auto place : places) fill_missing(into[place], roles_.at(roles[place]));
@@ -82,6 +86,65 @@ void JoinedSource::read(std::int64_t frame, std::span<const std::string> roles, 
 
 void JoinedSource::refuse_non_finite(std::span<const std::string> roles) {
   split(roles, [](const Part& part, const auto& names, const auto&) { part.source->refuse_non_finite(names); });
+}
+
+template <class Use>
+void JoinedSource::each_used(std::span<const std::string> roles, Use use) const {
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    std::map<std::string, std::string> used;
+    for (const auto& [here, there] : parts_[p].roles)
+      if (std::ranges::find(roles, here) != roles.end()) used[here] = there;
+    if (!used.empty() || p == lead_) use(parts_[p], used);
+  }
+}
+
+std::string JoinedSource::description(const std::filesystem::path& graphs, std::span<const std::string> roles) const {
+  using J = nlohmann::ordered_json;
+  J parts = J::array();
+  bool known = true, plain = true;  // plain: the first that moves can stand for all
+  each_used(roles, [&](const Part& part, const auto& used) {
+    std::vector<std::string> theirs;
+    for (const auto& [here, there] : used) theirs.push_back(there), plain &= here == there;
+    // One that only says which frames there are is described by all that it gives.
+    if (used.empty())
+      for (const auto& [here, there] : part.roles) theirs.push_back(there);
+    plain &= &part.source == &parts_[lead_].source && !part.still;
+    const auto own = part.source->description(graphs, theirs);
+    known &= !own.empty();
+    J j{{"roles", used}};
+    if (part.still) j["still"] = true;
+    if (!part.sparse.empty()) j["frames"] = frame_range_text(part.sparse);
+    j["sequence"] = J::parse(own, nullptr, false);
+    parts.push_back(std::move(j));
+  });
+  if (!known) return "";
+  return plain ? parts[0]["sequence"].dump() : J{{"quell_joined", 1}, {"parts", parts}}.dump();
+}
+
+std::map<std::string, std::string> JoinedSource::plugins(std::span<const std::string> roles) const {
+  std::map<std::string, std::string> all;
+  each_used(roles, [&](const Part& part, const auto& used) {
+    std::vector<std::string> theirs;
+    for (const auto& [here, there] : used) theirs.push_back(there);
+    all.merge(part.source->plugins(theirs));
+  });
+  return all;
+}
+
+std::string JoinedSource::told_name(std::size_t part, const FileRead& read) const {
+  return part == lead_ ? read.name : fmt::format("{}: {}", fmt::join(read.roles, ", "), read.name);
+}
+
+void JoinedSource::watch_files(FileWatcher watcher) {
+  for (std::size_t p = 0; p < parts_.size(); ++p)
+    parts_[p].source->watch_files([this, p, watcher](const FileRead& read) {
+      FileRead here = read;
+      here.frame = reading_, here.roles.clear();
+      for (const auto& [ours, theirs] : parts_[p].roles)
+        if (std::ranges::find(read.roles, theirs) != read.roles.end()) here.roles.push_back(ours);
+      here.name = told_name(p, {here.frame, read.name, read.hash, here.roles});
+      watcher(here);
+    });
 }
 
 std::map<std::string, Repairs> JoinedSource::repairs() const {

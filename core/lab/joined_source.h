@@ -34,11 +34,23 @@ class JoinedSource : public FrameSource {
   void read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) override;
   void refuse_non_finite(std::span<const std::string> roles) override;
   std::map<std::string, Repairs> repairs() const override;
+  // Where several parts or other names are needed, {"quell_joined": 1, "parts": [{"roles": {here: there}, "still":
+  // true, "frames": "0,7", "sequence": {…}}]}, the first that moves always among them; "frames" are those of a part
+  // that need not have all.
+  std::string description(const std::filesystem::path& graphs, std::span<const std::string> roles) const override;
+  std::map<std::string, std::string> plugins(std::span<const std::string> roles) const override;
+  void watch_files(FileWatcher) override;
 
   // Whether the role's source has this frame, and its images are not those of a missing one.
   bool has(std::int64_t frame, const std::string& role) const;
 
  private:
+  // Calls use(part, which of `roles` it gives and under which names of its own) for each that gives some, and for the
+  // first that moves.
+  template <class Use>
+  void each_used(std::span<const std::string> roles, Use use) const;
+  // Names in FileRead: of the first part that moves its own, of the others behind their roles, "reference: b.exr".
+  std::string told_name(std::size_t part, const FileRead&) const;
   const FrameSource& lead() const { return *parts_[lead_].source; }
   static bool has(const Part&, std::int64_t frame);
   // Calls use(part, its own names of the roles, their places in `roles`) for each part that gives some.
@@ -49,6 +61,7 @@ class JoinedSource : public FrameSource {
   std::size_t lead_ = 0;
   std::map<std::string, int> roles_;
   std::map<std::string, std::size_t> part_of_;
+  std::int64_t reading_ = 0;  // this frame; of a still part its files are told of for each frame that it serves
 };
 
 }  // namespace quell

@@ -77,7 +77,7 @@ std::optional<JournalPart> Journal::part() const {
     if (j.is_null()) return std::nullopt;
     JournalPart part;
     for (const auto& entry : j.at("entries")) part.entries.push_back(to_entry(entry));
-    part.state = j.at("state").get<std::string>();
+    part.state = j.at("state").get<std::string>(), part.files = j.at("files").get<std::string>();
     return part;
   } catch (const json::exception&) {
     return std::nullopt;
@@ -87,7 +87,7 @@ std::optional<JournalPart> Journal::part() const {
 void Journal::save(const JournalPart& part) const {
   json entries = json::array();
   for (const auto& entry : part.entries) entries.push_back(to_json(entry));
-  write(part_file(), {{"entries", std::move(entries)}, {"state", part.state}});
+  write(part_file(), {{"entries", std::move(entries)}, {"state", part.state}, {"files", part.files}});
   std::error_code error;
   std::vector<fs::path> old;
   for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {

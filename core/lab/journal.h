@@ -24,6 +24,7 @@ struct JournalEntry {
 // A merged run that is not at its end.
 struct JournalPart {
   std::vector<JournalEntry> entries;  // of the variants that run together
+  std::string files;                  // FileLog::text() of the frames so far
   std::string state;                  // file of the history behind the last frame of all entries, in the same folder
 };
 

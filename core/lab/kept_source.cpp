@@ -10,8 +10,17 @@
 
 namespace quell {
 
-KeptSource::KeptSource(std::unique_ptr<FrameSource> source, std::string role, std::filesystem::path folder)
-    : source_(std::move(source)), role_(std::move(role)), folder_(std::move(folder)) {}
+KeptSource::KeptSource(std::unique_ptr<FrameSource> source, std::string role, std::filesystem::path folder,
+                       std::map<std::string, std::string> made_from)
+    : source_(std::move(source)),
+      role_(std::move(role)),
+      folder_(std::move(folder)),
+      made_from_(std::move(made_from)) {}
+
+void KeptSource::watch_files(FileWatcher watcher) {
+  watcher_ = watcher;
+  source_->watch_files(std::move(watcher));
+}
 
 bool KeptSource::read_kept(const std::string& path, const quell_image& into) const {
   if (!std::filesystem::exists(path)) return false;
@@ -32,7 +41,11 @@ bool KeptSource::read_kept(const std::string& path, const quell_image& into) con
 void KeptSource::read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) {
   if (roles.size() != 1 || roles[0] != role_) return source_->read(frame, roles, into);
   const auto path = (folder_ / fmt::format("frame.{:04}.exr", frame)).string();
-  if (read_kept(path, into[0])) return;
+  if (read_kept(path, into[0])) {
+    if (watcher_)
+      for (const auto& [name, hash] : made_from_) watcher_({frame, name, hash, {role_}});
+    return;
+  }
   source_->read(frame, roles, into);
   WriteOptions options;
   options.half = false;

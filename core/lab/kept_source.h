@@ -4,16 +4,19 @@
 #include "core/sequence/frame_source.h"
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 
 namespace quell {
 
 // Gives one role of another source, bit for bit, from 32-bit files in a folder, where they are; else makes and writes
-// them. A file is never half written, so a run that was killed leaves nothing wrong behind.
+// them. A file is never half written, so a run that was killed leaves nothing wrong behind. `made_from` are the files,
+// with their hashes, that the source makes every frame from: of a kept one they are told of too.
 class KeptSource : public FrameSource {
  public:
-  KeptSource(std::unique_ptr<FrameSource> source, std::string role, std::filesystem::path folder);
+  KeptSource(std::unique_ptr<FrameSource> source, std::string role, std::filesystem::path folder,
+             std::map<std::string, std::string> made_from);
 
   const std::vector<std::int64_t>& frames() const override { return source_->frames(); }
   bool cut_before(std::int64_t frame) const override { return source_->cut_before(frame); }
@@ -24,6 +27,13 @@ class KeptSource : public FrameSource {
   }
   void read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) override;
   std::map<std::string, Repairs> repairs() const override { return source_->repairs(); }
+  std::string description(const std::filesystem::path& graphs, std::span<const std::string> roles) const override {
+    return source_->description(graphs, roles);
+  }
+  std::map<std::string, std::string> plugins(std::span<const std::string> roles) const override {
+    return source_->plugins(roles);
+  }
+  void watch_files(FileWatcher) override;
 
  private:
   bool read_kept(const std::string& path, const quell_image& into) const;
@@ -31,6 +41,8 @@ class KeptSource : public FrameSource {
   std::unique_ptr<FrameSource> source_;
   std::string role_;
   std::filesystem::path folder_;
+  std::map<std::string, std::string> made_from_;
+  FileWatcher watcher_;
 };
 
 }  // namespace quell

@@ -1,6 +1,7 @@
 // A metric is loaded as any graph is; what is checked here is what makes a graph a metric.
 #include "core/lab/metric.h"
 
+#include "core/lab/halves.h"
 #include "core/report/error.h"
 #include "core/report/suggest.h"
 
@@ -121,6 +122,31 @@ std::optional<Metric> load_metric(const std::string& name, const fs::path& graph
     return std::nullopt;
   }
   return Metric{fs::path(info.file).stem().string(), info.name, info.about, *info.metric, std::move(*graph)};
+}
+
+int reference_frames_back(const Graph& metric) {
+  constexpr int kMost = 64;
+  constexpr int kNever = -1;
+  // By node: the most frames back that a reference is read, kNever where none is.
+  std::vector<int> back(metric.nodes.size(), kNever);
+  const auto of = [&](const Source& s) {
+    if (s.node >= 0) return back[std::size_t(s.node)];
+    return s.node == Source::kInput && is_reference(metric.inputs[std::size_t(s.port)].name) ? 0 : kNever;
+  };
+  const auto through = [&](const Wire& w) {
+    const int from = of(w.from);
+    return from == kNever ? of(w.start) : std::min(kMost, from + w.delay);
+  };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t n = 0; n < metric.nodes.size(); ++n)
+      for (const auto& port : metric.nodes[n].in)
+        for (const auto& wire : port)
+          if (const int b = through(wire); b > back[n]) back[n] = b, changed = true;
+  }
+  int most = kNever;
+  for (const auto& out : metric.outputs) most = std::max(most, through(out.wire));
+  return most;
 }
 
 void attach_metric(Graph& graph, int output, const Metric& metric, const std::string& prefix,

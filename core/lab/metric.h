@@ -35,6 +35,10 @@ std::optional<Metric> load_metric(const std::string& name, const std::filesystem
                                   std::optional<std::map<std::string, int>> roles = std::nullopt,
                                   std::vector<Edit> edits = {});
 
+// Frames before the current one whose references enter the number of a metric, 64 at most, as through a loop; -1 when
+// none does, not even the current one's.
+int reference_frames_back(const Graph& metric);
+
 // Appends the metric to the graph: it judges output `output`, and the graph reads its other inputs as well. Its outputs
 // follow those that are there, as "PREFIX.value" and so on; those of `wanted` that it has not are left out. Throws
 // Error(Exit::usage) when types do not fit, or when the output is delayed and the metric looks back as well.

@@ -20,6 +20,7 @@ struct ResultMetric {
 struct ResultVariant {
   std::string name, about;
   std::string edits;             // as JSON: { "set": { "alpha": 0.1 } }
+  std::string graph;             // as a graph file
   std::string fingerprint;       // of its graph
   std::string command;           // that runs it
   int nodes = 0, own_nodes = 0;  // of its graph; and those that it shares with no other variant

@@ -31,7 +31,8 @@ ordered_json variant_json(const ResultVariant& v) {
           {"fingerprint", v.fingerprint},
           {"command", v.command},
           {"nodes", v.nodes},
-          {"own_nodes", v.own_nodes}};
+          {"own_nodes", v.own_nodes},
+          {"graph", ordered_json::parse(v.graph, nullptr, false)}};
 }
 
 ordered_json sequence_json(const Results& r, const ResultSequence& s) {

@@ -4,6 +4,7 @@
 #include "core/image/image.h"
 #include "core/lab/group_run.h"
 #include "core/report/error.h"
+#include "core/run/provenance.h"
 #include "core/sequence/frame_pattern.h"
 #include "core/sequence/image_file.h"
 #include "core/sequence/image_writer.h"
@@ -36,11 +37,18 @@ Image read_golden(const std::string& path) {
 class TestSink : public FrameSink {
  public:
   TestSink(const SuiteTest& test, const Trial& trial, const Group& group, const SuiteRunOptions& options,
-           TestOutcome& outcome)
-      : test_(test), trial_(trial), group_(group), options_(options), outcome_(outcome) {}
+           Provenance provenance, TestOutcome& outcome)
+      : test_(test),
+        trial_(trial),
+        group_(group),
+        options_(options),
+        provenance_(std::move(provenance)),
+        outcome_(outcome) {}
+  void history_begins(std::int64_t frame) override { provenance_.history_begins(frame); }
 
   void write(std::int64_t frame, std::span<const quell_image> outputs) override {
-    group_.take(frame, outputs, trial_.reference_frames(), std::span(&entry_, 1));
+    group_.take(frame, outputs, std::span(&entry_, 1));
+    made_ = provenance_.texts(frame);
     if (test_.golden && std::ranges::find(test_.golden->frames, frame) != test_.golden->frames.end())
       golden(frame, outputs[std::size_t(trial_.variants().front().judged)]);
   }
@@ -50,7 +58,14 @@ class TestSink : public FrameSink {
  private:
   void golden(std::int64_t frame, const quell_image& picture) {
     const std::string path = FramePattern(test_.golden->pattern).path(frame);
-    if (options_.update_golden) return write_image(path, picture, QUELL_RADIANCE);
+    if (options_.update_golden) {
+      WriteOptions options;
+      // Golden images are kept with the project: what they say holds in every checkout of it.
+      for (const auto key :
+           {"Software", "quell:version", "quell:simd", "quell:plugins", "quell:graph", "quell:fingerprint"})
+        options.metadata[key] = made_.at(key);
+      return write_image(path, picture, QUELL_RADIANCE, options);
+    }
     std::error_code error;
     if (!std::filesystem::exists(path, error))
       return fail(frame, picture, fmt::format("there is no golden image {}; --update-golden makes it", path));
@@ -70,7 +85,12 @@ class TestSink : public FrameSink {
       const auto file = [&](const char* kind) {
         return FramePattern((options_.failures / fmt::format("{}.{}.####.exr", test_.name, kind)).string()).path(frame);
       };
-      write_image(file("found"), picture, QUELL_RADIANCE);
+      WriteOptions options;
+      options.metadata = made_;
+      const auto& judged = trial_.variants().front();
+      options.metadata["quell:output"] =
+          output_text(judged.plain, judged.plain.outputs[std::size_t(judged.judged)], options);
+      write_image(file("found"), picture, QUELL_RADIANCE, options);
       if (golden) write_image(file("golden"), golden->view(), QUELL_RADIANCE);
       text += fmt::format("; see {}", file("found"));
     }
@@ -81,8 +101,10 @@ class TestSink : public FrameSink {
   const Trial& trial_;
   const Group& group_;
   const SuiteRunOptions& options_;
+  Provenance provenance_;
   TestOutcome& outcome_;
   JournalEntry entry_;
+  Texts made_;  // of this frame
 };
 
 void check_conditions(const SuiteTest& test, const Trial& trial, const JournalEntry& entry, TestOutcome& outcome) {
@@ -115,7 +137,11 @@ TestOutcome run_test(const SuiteTest& test, const Trial& trial, Laboratory& lab,
       for (const auto frame : test.golden->frames)
         if (std::ranges::find(source->frames(), frame) == source->frames().end())
           throw Error(Exit::usage, fmt::format("there is no frame {} to compare with a golden image", frame));
-    TestSink sink(test, trial, group, options, outcome);
+    const FileLog log(*source);
+    TestSink sink(
+        test, trial, group, options,
+        {trial.variants().front().plain, *source, log, {options.command, options.simd, "error", {}, lab.graphs}},
+        outcome);
     run_graph(group.graph(), *source, sink, options.run);
     if (!options.update_golden) check_conditions(test, trial, sink.entry(), outcome);
   } catch (const Error& e) {

@@ -7,6 +7,8 @@
 #include "core/run/executor.h"
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace quell {
 
@@ -14,6 +16,8 @@ struct SuiteRunOptions {
   RunOptions run;
   bool update_golden = false;      // writes golden images instead of comparing with them
   std::filesystem::path failures;  // where pictures go that fail, with what they should be; "" for nowhere
+  std::vector<std::string> command;
+  std::string simd;
 };
 
 // What keeps the test from its end is an error of its outcome; Error(Exit::interrupted) alone passes through.

@@ -6,6 +6,7 @@
 #include "core/lab/joined_source.h"
 #include "core/lab/kept_source.h"
 #include "core/report/suggest.h"
+#include "core/run/named_files.h"
 #include "core/run/node_source.h"
 #include "core/run/source_node.h"
 #include "core/sequence/frame_range.h"
@@ -185,9 +186,18 @@ bool Trial::load_metrics(Laboratory& lab) {
     if (!metric) continue;
     if (std::ranges::find(metrics_, metric->name, &Metric::name) != metrics_.end())
       scoped.inner.error(m.position, m.where, fmt::format("two metrics are called '{}'", metric->name));
+    looks_back_.push_back(reference_frames_back(metric->graph));
     metrics_.push_back(std::move(*metric));
   }
   return lab.diagnostics.errors() == before;
+}
+
+bool Trial::judges(std::size_t metric, std::int64_t frame) const {
+  const auto& frames = sequence_.frames;
+  const auto at = std::ranges::find(frames, frame) - frames.begin();
+  for (auto i = at; i >= 0 && i >= at - looks_back_[metric]; --i)
+    if (!reference_frames_.contains(frames[std::size_t(i)])) return false;
+  return true;
 }
 
 bool Trial::load_variants(bool maps, Laboratory& lab) {
@@ -273,7 +283,8 @@ std::unique_ptr<FrameSource> Trial::open(const std::vector<std::string>& roles, 
   for (const auto& [role, node] : reference_nodes_) {
     std::unique_ptr<FrameSource> reference = made(node);
     if (!lab.references.empty())
-      reference = std::make_unique<KeptSource>(std::move(reference), "color", lab.references / digest(describe(node)));
+      reference = std::make_unique<KeptSource>(std::move(reference), "color", lab.references / digest(describe(node)),
+                                               named_files("source", node));
     add("the reference", std::move(reference)).roles[role] = "color";
   }
   if (!sequence_.references.empty() && !reference_frames_.empty()) {

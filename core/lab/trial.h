@@ -54,6 +54,8 @@ class Trial {
   const std::map<std::string, int>& roles() const { return roles_; }
   // Frames that have a reference.
   const std::set<std::int64_t>& reference_frames() const { return reference_frames_; }
+  // Whether all references are there that the metric's number of this frame is made from.
+  bool judges(std::size_t metric, std::int64_t frame) const;
 
   // The frames for what these roles name; `seed` in place of the sequence's own. Throws Error, or leaves what is wrong
   // with the diagnostics and gives nothing.
@@ -81,6 +83,7 @@ class Trial {
   std::set<std::string> references_;                 // roles that can be had, the mean of halves among them
   std::set<std::int64_t> reference_frames_;
   std::vector<Metric> metrics_;
+  std::vector<int> looks_back_;  // by metric: frames before one whose references it reads too; -1: it reads none
   std::vector<JudgedGraph> variants_;
 };
 

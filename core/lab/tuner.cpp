@@ -27,15 +27,14 @@ double written(double x, bool integer) { return integer ? std::round(x) : six_di
 
 class Collect : public FrameSink {
  public:
-  Collect(const Group& group, const Trial& trial) : group_(group), trial_(trial) {}
+  explicit Collect(const Group& group) : group_(group) {}
   void write(std::int64_t frame, std::span<const quell_image> outputs) override {
-    group_.take(frame, outputs, trial_.reference_frames(), std::span(&entry, 1));
+    group_.take(frame, outputs, std::span(&entry, 1));
   }
   JournalEntry entry;
 
  private:
   const Group& group_;
-  const Trial& trial_;
 };
 
 ordered_json to_json(const std::vector<double>& parameters, const TunedScore& score) {
@@ -95,7 +94,7 @@ TunedScore Tuner::score(const Study& study, const Json& edits) {
     const Group group(tried, *trial, {0}, false);
     const auto source = trial->open(group.roles(), std::nullopt, 0, lab_);
     if (!source) throw Error(lab_.diagnostics.exit(), lab_.diagnostics.format());
-    Collect sink(group, *trial);
+    Collect sink(group);
     run_graph(group.graph(), *source, sink, options_.run);
     for (auto f = std::size_t(tried.warm_up); f < sink.entry.numbers.size(); ++f)
       for (std::size_t m = 0; m < trial->metrics().size(); ++m)

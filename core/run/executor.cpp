@@ -50,8 +50,13 @@ class Run {
     if (!options_.load_state.empty()) resume(frames[0]);
     try {
       for (std::size_t i = 0; i < frames.size(); ++i) run_frame(i);
-    } catch (...) {
+    } catch (const Error& e) {
       writer_.wait();  // what went wrong with an earlier frame comes first
+      if (e.exit() == Exit::interrupted && !options_.save_cancelled.empty() && report_.frames > 0)
+        save_state(options_.save_cancelled, graph_, *session_, frames[report_.frames - 1]);
+      throw;
+    } catch (...) {
+      writer_.wait();
       throw;
     }
     writer_.wait();

@@ -46,6 +46,7 @@ struct RunOptions {
   bool overlap = true;                           // false: reads, filters and writes one after the other, to be timed
   std::size_t max_memory = 0;                    // bytes for images, kept to by less overlap; 0: no limit
   std::filesystem::path load_state, save_state;  // empty: none
+  std::filesystem::path save_cancelled;          // the same when `cancel` ends the run, behind the last frame written
   const std::atomic<bool>* cancel = nullptr;
   std::function<void(const Progress&)> progress;
   std::function<void(const FrameTimes&)> frame_times;

@@ -76,7 +76,7 @@ std::vector<quell_shape> NodeSource::shapes(std::int64_t, std::span<const std::s
 }
 
 void NodeSource::read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) {
-  for (const auto& [name, hash] : hashes_) watcher_(frame, name, hash);
+  for (const auto& [name, hash] : hashes_) watcher_({frame, name, hash, {roles.begin(), roles.end()}});
   std::vector<quell_image> out(shapes_.size());
   for (std::size_t i = 0; i < roles.size(); ++i) out[output(roles[i])] = into[i];
   std::size_t tiled = out.size();
@@ -95,8 +95,12 @@ void NodeSource::read(std::int64_t frame, std::span<const std::string> roles, st
   });
 }
 
-std::string NodeSource::description(const std::filesystem::path& graphs) const {
+std::string NodeSource::description(const std::filesystem::path& graphs, std::span<const std::string>) const {
   return write_sequence(node_.instance, frames_, cuts_, graphs);
+}
+
+std::map<std::string, std::string> NodeSource::plugins(std::span<const std::string>) const {
+  return {{std::string(node_.type().name()), std::string(node_.type().version())}};
 }
 
 void NodeSource::watch_files(FileWatcher watcher) {

@@ -25,7 +25,8 @@ class NodeSource : public FrameSource {
   std::vector<quell_shape> shapes(std::int64_t frame, std::span<const std::string> roles) override;
   void read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) override;
   std::map<std::string, Repairs> repairs() const override { return {}; }
-  std::string description(const std::filesystem::path& graphs) const override;
+  std::string description(const std::filesystem::path& graphs, std::span<const std::string> roles) const override;
+  std::map<std::string, std::string> plugins(std::span<const std::string> roles) const override;
   void watch_files(FileWatcher) override;
 
  private:

@@ -6,6 +6,8 @@
 #include "core/run/named_files.h"
 #include "core/sequence/file_hash.h"
 
+#include <quell/types.h>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -24,11 +26,16 @@ std::string whole_path(const fs::path& path) {
   return fs::absolute(path, error).lexically_normal().string();
 }
 
+std::vector<std::string> roles_of(const Graph& graph) {
+  std::vector<std::string> roles;
+  for (const auto& input : graph.inputs) roles.push_back(input.name);
+  return roles;
+}
+
 }  // namespace
 
-std::string plugin_versions(const Graph& graph, const NodeType* source) {
-  std::map<std::string, std::string> versions;
-  if (source) versions.emplace(source->name(), source->version());
+std::string plugin_versions(const Graph& graph, const FrameSource& source) {
+  auto versions = source.plugins(roles_of(graph));
   for (const auto& node : graph.nodes)
     if (!node.preview) versions.emplace(node.type().name(), node.type().version());
   std::vector<std::string> texts;
@@ -38,17 +45,18 @@ std::string plugin_versions(const Graph& graph, const NodeType* source) {
 
 std::string short_hash(const std::string& inputs) { return text_hash(inputs).substr(8); }
 
-Provenance::Provenance(const Graph& graph, FrameSource& source, const Run& run) {
+Provenance::Provenance(const Graph& graph, const FrameSource& source, const FileLog& log, const Run& run)
+    : log_(&log), roles_(roles_of(graph)), looks_back_(graph.looks_back()) {
   const auto written = write_graph(graph, run.graphs);
   texts_ = {{"Software", "quell " QUELL_VERSION},
             {"quell:version", QUELL_VERSION},
             {"quell:simd", run.simd},
-            {"quell:plugins", plugin_versions(graph, run.source)},
+            {"quell:plugins", plugin_versions(graph, source)},
             {"quell:command", shell_text(run.command)},
             {"quell:directory", whole_path(".")},
             {"quell:graph", written.text},
             {"quell:fingerprint", fingerprint(graph)},
-            {"quell:sequence", source.description(run.graphs)}};
+            {"quell:sequence", source.description(run.graphs, roles_)}};
   if (!written.files.empty()) texts_["quell:files"] = text_of(written.files);
   if (run.missing != "error") texts_["quell:missing"] = run.missing;
   std::error_code error;
@@ -58,10 +66,6 @@ Provenance::Provenance(const Graph& graph, FrameSource& source, const Run& run) 
   for (const auto& node : graph.nodes)
     if (!node.preview) named_.merge(named_files(node.name, node.instance));
   if (!source.frames().empty()) first_ = source.frames().front();
-  source.watch_files([this](std::int64_t frame, const std::string& name, const std::string& hash) {
-    const std::scoped_lock lock(mutex_);
-    files_[frame][name] = hash;
-  });
 }
 
 void Provenance::history_begins(std::int64_t frame) {
@@ -71,13 +75,13 @@ void Provenance::history_begins(std::int64_t frame) {
 }
 
 Texts Provenance::files(std::int64_t frame) const {
-  Texts files = named_;
-  const std::scoped_lock lock(mutex_);
-  if (const auto it = files_.find(frame); it != files_.end()) files.insert(it->second.begin(), it->second.end());
+  Texts files = log_->files(frame, roles_);
+  files.insert(named_.begin(), named_.end());
   return files;
 }
 
 Texts Provenance::texts(std::int64_t frame) {
+  if (!looks_back_ && !texts_.contains("quell:state")) first_ = frame, history_.clear();
   Texts texts = texts_;
   const std::string inputs = text_of(files(frame));
   texts["quell:frames"] = first_ == frame ? fmt::format("{}", frame) : fmt::format("{}-{}", first_, frame);
@@ -96,12 +100,18 @@ std::string Provenance::report() const {
     json[key.substr(6)] = structured && !text.empty() ? J::parse(text) : J(text);
   }
   auto& inputs = json["inputs"] = J::object();
-  const std::scoped_lock lock(mutex_);
-  for (const auto& [frame, files] : files_) {
-    auto& all = inputs[std::to_string(frame)] = files;
-    for (const auto& [name, hash] : named_) all[name] = hash;
-  }
+  for (const auto frame : log_->frames()) inputs[std::to_string(frame)] = files(frame);
   return text_of(json);
+}
+
+std::string output_text(const Graph& graph, const GraphOutput& output, const WriteOptions& options) {
+  J json{{"name", output.name}, {"type", type_name(output.type)}};
+  if (output.shows >= 0) json["preview_of"] = graph.outputs[std::size_t(output.shows)].name;
+  if (output.tap && output.shows < 0) json["tap"] = reference_text(graph, output.wire);
+  json["half"] = options.half;
+  json["compression"] = options.compression.name;
+  if (options.compression.level) json["level"] = *options.compression.level;
+  return json.dump();
 }
 
 }  // namespace quell

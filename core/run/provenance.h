@@ -2,12 +2,12 @@
 #pragma once
 
 #include "core/graph/graph.h"
-#include "core/sequence/frame_source.h"
+#include "core/run/file_log.h"
+#include "core/sequence/image_writer.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -16,8 +16,8 @@ namespace quell {
 // Attributes of an image file, by name.
 using Texts = std::map<std::string, std::string>;
 
-// "atrous 1.0, gaussian 1.0": the node types of a graph and of the source of its frames, with the plugins' versions.
-std::string plugin_versions(const Graph&, const NodeType* source);
+// "atrous 1.0, gaussian 1.0": the node types of a graph and of what makes its frames, with the plugins' versions.
+std::string plugin_versions(const Graph&, const FrameSource&);
 
 class Provenance {
  public:
@@ -28,13 +28,10 @@ class Provenance {
     std::string missing = "error";     // --missing
     std::filesystem::path load_state;  // empty: none
     std::filesystem::path graphs;      // folder of installed graphs
-    const NodeType* source = nullptr;  // of the node that makes the frames
   };
-  // Hashes the files that the graph's nodes name and the saved state. The source tells of its files from now on; it
-  // reads nothing after this is gone.
-  Provenance(const Graph&, FrameSource&, const Run&);
-  Provenance(const Provenance&) = delete;
-  Provenance& operator=(const Provenance&) = delete;
+  // Hashes the files that the graph's nodes name and the saved state. `source` has what the graph reads, and the log,
+  // which outlives this, tells of its files.
+  Provenance(const Graph&, const FrameSource& source, const FileLog& log, const Run&);
 
   // Frames in the order in which they run: history_begins before each that has no past, texts once for each.
   void history_begins(std::int64_t frame);
@@ -44,9 +41,9 @@ class Provenance {
   //   quell:command, quell:directory  as a shell takes it, and where it was given
   //   quell:graph, quell:fingerprint  the graph with its edits, as a graph file, and its identity
   //   quell:files                   files that the graph's nodes name, as values of --set (where there are some)
-  //   quell:sequence                a sequence file
+  //   quell:sequence                a sequence file, or several of them joined (core/lab/joined_source.h)
   //   quell:missing                 what was done about missing frames (where that was said)
-  //   quell:frames                  "0-7": the frames of this one's history, and itself
+  //   quell:frames                  "0-7": the frames of this one's history, where the graph looks back, and itself
   //   quell:inputs                  JSON: the hash of each file that this frame was made from
   //   quell:history                 for each earlier frame of the history, a hash of its quell:inputs
   //   quell:state                   JSON: the saved state that the history goes on from, and its hash (where it does)
@@ -58,13 +55,18 @@ class Provenance {
   Texts files(std::int64_t frame) const;
 
  private:
-  Texts texts_;  // those that are the same for all frames
-  Texts named_;  // files that nodes name, with their hashes
+  const FileLog* log_;
+  std::vector<std::string> roles_;  // that the graph reads
+  Texts texts_;                     // those that are the same for all frames
+  Texts named_;                     // files that nodes name, with their hashes
+  bool looks_back_;
   std::int64_t first_ = 0;
   std::string history_;  // hashes of the frames from first_ on
-  mutable std::mutex mutex_;
-  std::map<std::int64_t, Texts> files_;  // by frame; filled while earlier frames are written
 };
+
+// quell:output, what `quell rerun` must know to write an output again: its name and type, whether it is a tap or a
+// preview, and how it is stored.
+std::string output_text(const Graph&, const GraphOutput&, const WriteOptions&);
 
 // Hash of a frame's files, as quell:history has it.
 std::string short_hash(const std::string& inputs);

@@ -26,7 +26,12 @@ class Excerpt : public FrameSource {
     source_.read(frame, roles, into);
   }
   std::map<std::string, Repairs> repairs() const override { return source_.repairs(); }
-  std::string description(const std::filesystem::path& graphs) const override { return source_.description(graphs); }
+  std::string description(const std::filesystem::path& graphs, std::span<const std::string> roles) const override {
+    return source_.description(graphs, roles);
+  }
+  std::map<std::string, std::string> plugins(std::span<const std::string> roles) const override {
+    return source_.plugins(roles);
+  }
   void watch_files(FileWatcher watcher) override { source_.watch_files(std::move(watcher)); }
 
  private:

@@ -111,10 +111,13 @@ class FileSequence::Impl {
   void watch_files(FileWatcher watcher) { watcher_ = std::move(watcher); }
 
   // With the channels that were found in place of those that were looked for.
-  std::string description() const {
+  std::string description(std::span<const std::string> roles) const {
+    std::set<std::string> kept(roles.begin(), roles.end());
+    if (camera_ && std::ranges::any_of(roles, [&](const std::string& r) { return reads_camera(r); }))
+      kept.insert(camera_->role);
     Sequence found = sequence_;
     for (auto* list : {&found.inputs, &found.references}) {
-      std::erase_if(*list, [&](const SequenceInput& i) { return !bound_.contains(i.role); });
+      std::erase_if(*list, [&](const SequenceInput& i) { return !bound_.contains(i.role) || !kept.contains(i.role); });
       for (auto& input : *list) {
         const Bound& bound = bound_.at(input.role);
         input.choices = {{bound.channels, false, bound.conversion, {}}};
@@ -212,6 +215,11 @@ class FileSequence::Impl {
       return 0;
     });
     bound_[input.role] = std::move(bound);
+  }
+
+  bool reads_camera(const std::string& role) const {
+    const auto found = bound_.find(role);
+    return found != bound_.end() && found->second.conversion.needs_camera();
   }
 
   const Bound& bound_of(const std::string& role) {
@@ -338,12 +346,15 @@ class FileSequence::Impl {
   // Before they are read, so that of a file on a disk the second pass comes from memory.
   void hash_files(const std::map<std::string, std::vector<std::size_t>>& by_file, std::int64_t frame,
                   std::span<const std::string> roles) {
-    std::set<std::string> paths;
-    for (const auto& [path, members] : by_file) paths.insert(path);
-    if (std::ranges::any_of(roles, [&](const std::string& r) { return bound_of(r).conversion.needs_camera(); }))
-      paths.insert(camera_->file.path(stand_in(*camera_, frame)));
-    for (const auto& [path, hash] : hashes_.of({paths.begin(), paths.end()}))
-      watcher_(frame, name_below(sequence_.root, path), hash);
+    std::map<std::string, std::vector<std::string>> uses;  // by path
+    for (const auto& [path, members] : by_file)
+      for (const auto i : members) uses[path].push_back(roles[i]);
+    for (const auto& role : roles)
+      if (reads_camera(role)) uses[camera_->file.path(stand_in(*camera_, frame))].push_back(role);
+    std::vector<std::string> paths;
+    for (const auto& [path, readers] : uses) paths.push_back(path);
+    for (const auto& [path, hash] : hashes_.of(paths))
+      watcher_({frame, name_below(sequence_.root, path), hash, uses.at(path)});
   }
 
   void fill_missing_role(const std::string& role, const quell_image& image) {
@@ -387,7 +398,9 @@ void FileSequence::read(std::int64_t frame, std::span<const std::string> roles, 
 }
 void FileSequence::refuse_non_finite(std::span<const std::string> roles) { impl_->refuse_non_finite(roles); }
 std::map<std::string, Repairs> FileSequence::repairs() const { return impl_->repairs(); }
-std::string FileSequence::description(const std::filesystem::path&) const { return impl_->description(); }
+std::string FileSequence::description(const std::filesystem::path&, std::span<const std::string> roles) const {
+  return impl_->description(roles);
+}
 void FileSequence::watch_files(FileWatcher watcher) { impl_->watch_files(std::move(watcher)); }
 const std::vector<std::int64_t>& FileSequence::reference_frames() const { return impl_->reference_frames(); }
 const std::vector<std::int64_t>& FileSequence::missing_frames() const { return impl_->missing_frames(); }

@@ -40,7 +40,7 @@ class FileSequence : public FrameSource {
   void read(std::int64_t frame, std::span<const std::string> roles, std::span<const quell_image> into) override;
   void refuse_non_finite(std::span<const std::string> roles) override;
   std::map<std::string, Repairs> repairs() const override;
-  std::string description(const std::filesystem::path& graphs) const override;
+  std::string description(const std::filesystem::path& graphs, std::span<const std::string> roles) const override;
   void watch_files(FileWatcher) override;
 
   // Frames for which all files of the reference exist.

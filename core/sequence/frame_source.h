@@ -19,9 +19,14 @@ struct Repairs {
   std::int64_t negative = 0;    // pixels with negative radiance, raised to 0
 };
 
-// Told of a file that a frame is made from: its name, as FrameSource::description() has it, and the hash of its bytes
-// (core/sequence/file_hash.h).
-using FileWatcher = std::function<void(std::int64_t frame, const std::string& name, const std::string& hash)>;
+// A file that a frame is made from.
+struct FileRead {
+  std::int64_t frame;
+  std::string name;                // as FrameSource::description() has it
+  std::string hash;                // of its bytes (core/sequence/file_hash.h)
+  std::vector<std::string> roles;  // that it was read for
+};
+using FileWatcher = std::function<void(const FileRead&)>;
 
 class FrameSource {
  public:
@@ -48,9 +53,14 @@ class FrameSource {
   // Totals so far, by role.
   virtual std::map<std::string, Repairs> repairs() const = 0;
 
-  // The same frames as a sequence file that stands for itself; "" where none can say them. `graphs` is the folder of
-  // installed graphs, whose files are named "quell:…".
-  virtual std::string description(const std::filesystem::path& /*graphs*/) const { return ""; }
+  // What these roles of the frames are read from, as a sequence file that stands for itself; "" where none can say it.
+  // `graphs` is the folder of installed graphs, whose files are named "quell:…".
+  virtual std::string description(const std::filesystem::path& /*graphs*/,
+                                  std::span<const std::string> /*roles*/) const {
+    return "";
+  }
+  // Node types that make these roles, with their plugins' versions; none where files hold them.
+  virtual std::map<std::string, std::string> plugins(std::span<const std::string> /*roles*/) const { return {}; }
   // Hashes files from now on, before they are read and on the thread that reads them, and tells of each.
   virtual void watch_files(FileWatcher) {}
 };

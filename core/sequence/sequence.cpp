@@ -148,7 +148,9 @@ class Loader {
         std::erase_if(sequence_.inputs, [&](const SequenceInput& i) { return i.role == m.key; });
         sequence_.inputs.push_back(std::move(*input));
       }
-      if (list->members.empty() && !file) diagnostics_.error(list->position, "inputs", "is empty");
+      // A reference may stand alone: pictures are judged by it.
+      if (list->members.empty() && !file && !json.find("reference"))
+        diagnostics_.error(list->position, "inputs", "is empty");
     }
     if (json.find("source")) {
       for (const char* key : {"inputs", "file", "profile", "root"})

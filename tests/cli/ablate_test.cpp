@@ -194,6 +194,24 @@ TEST_F(Ablate, EndsAtInterruptsAndSaysHowToGoOn) {
   EXPECT_NE(again.err.find("going on with frame "), std::string::npos);
 }
 
+TEST_F(Ablate, LosesNoFrameToAnInterrupt) {
+  write("study.json", study(23, "0.5", 24));
+  Program program(command({"ablate", "./study.json", "-o", "out", "--progress", "json"}), here());
+  // Past the first part that is kept, and before all is done.
+  ASSERT_TRUE(program.wait_until([&] { return fs::exists(path("out/images/room/base.0002.exr")); }));
+  program.send(SIGINT);
+  const auto r = program.finish();
+  ASSERT_EQ(r.exit, 130) << r.err;
+  const auto told = lines_with(r.err, "{");
+  ASSERT_FALSE(told.empty());
+  const int last = json::parse(told.back())["frame"];
+  ASSERT_LT(last, 23);
+  const auto again = ablate("out", {"--resume"});
+  EXPECT_NE(again.err.find(fmt::format("going on with frame {}", last + 1)), std::string::npos) << last << again.err;
+  ablate("whole");
+  EXPECT_EQ(read("out/results.json"), read("whole/results.json"));
+}
+
 TEST_F(Ablate, ComputesAgainWhatHasChangedAndNothingElse) {
   write("study.json", study(5));
   ablate("out");

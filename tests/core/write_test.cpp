@@ -1,5 +1,6 @@
 // A resolved graph, written and loaded again, is the same graph.
 #include "core/graph/write.h"
+#include "core/graph/narrow.h"
 #include "core/graph/preview.h"
 
 #include "tests/support/graph_nodes.h"
@@ -55,6 +56,28 @@ TEST(WriteGraph, SvgfWithItsSubgraphsAndHistory) {
   const auto loaded = svgf();
   ASSERT_TRUE(loaded.graph) << loaded.messages;
   round_trip(*loaded.graph);
+}
+
+TEST(WriteGraph, NarrowedToOneOutput) {
+  const auto loaded = svgf({{Edit::Kind::tap, "age.length"}});
+  ASSERT_TRUE(loaded.graph) << loaded.messages;
+  const auto tap =
+      std::size_t(std::ranges::find(loaded.graph->outputs, true, &GraphOutput::tap) - loaded.graph->outputs.begin());
+  ASSERT_LT(tap, loaded.graph->outputs.size());
+  const auto graph = narrowed(*loaded.graph, tap, "frames");
+  // Nothing is left that it does not need, or loading it would warn; nothing is missing that it does.
+  round_trip(graph);
+  ASSERT_EQ(graph.outputs.size(), 1u);
+  EXPECT_EQ(graph.outputs[0].name, "frames");
+  EXPECT_FALSE(graph.outputs[0].tap);
+  EXPECT_LT(graph.nodes.size(), loaded.graph->nodes.size());
+  EXPECT_LT(graph.inputs.size(), loaded.graph->inputs.size());
+  EXPECT_TRUE(graph.looks_back());
+  for (const auto& node : graph.nodes) {
+    const auto same = std::ranges::find(loaded.graph->nodes, node.name, &GraphNode::name);
+    ASSERT_NE(same, loaded.graph->nodes.end());
+    EXPECT_EQ(node.instance.describe(), same->instance.describe());
+  }
 }
 
 TEST(WriteGraph, WithEditsApplied) {

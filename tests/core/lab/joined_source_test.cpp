@@ -4,7 +4,11 @@
 #include "core/image/image.h"
 #include "core/report/error.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
+
+#include <set>
 
 namespace quell {
 namespace {
@@ -28,6 +32,12 @@ class Counting : public FrameSource {
   }
   std::map<std::string, Repairs> repairs() const override { return {{"color", {std::int64_t(base_), 0}}}; }
   void refuse_non_finite(std::span<const std::string> roles) override { refused.assign(roles.begin(), roles.end()); }
+  std::string description(const std::filesystem::path&, std::span<const std::string> roles) const override {
+    return fmt::format(R"({{"{}":"{}"}})", base_, fmt::join(roles, " "));
+  }
+  void watch_files(FileWatcher watcher) override {
+    for (const auto frame : frames_) watcher({frame, fmt::format("{}.exr", base_), "hash", {"color", "motion"}});
+  }
 
   std::vector<std::string> refused;
 
@@ -102,6 +112,38 @@ TEST(JoinedSource, SparseFramesReadAsMissing) {
   EXPECT_EQ(a.at(0, 0, 0), 0);
   joined.read(4, roles, into);
   EXPECT_EQ(a.at(0, 0, 0), 204);
+}
+
+TEST(JoinedSource, IsDescribedByTheSourcesThatAreRead) {
+  auto renamed = parts({3, 4, 5});
+  renamed[0].roles = {{"color", "color"}};
+  const JoinedSource joined(std::move(renamed));
+  const auto described = [&](std::vector<std::string> roles) { return joined.description("", roles); };
+  // One that needs no other and no other names stands for itself.
+  EXPECT_EQ(described({"color"}), R"({"100":"color"})");
+  // The first tells which frames there are, even where nothing is read of it.
+  EXPECT_EQ(described({"reference"}), R"({"quell_joined":1,"parts":[{"roles":{},"sequence":{"100":"color"}},)"
+                                      R"({"roles":{"reference":"color"},"sequence":{"200":"color"}}]})");
+  EXPECT_EQ(described({"color", "motion"}),
+            R"({"quell_joined":1,"parts":[{"roles":{"color":"color"},"sequence":{"100":"color"}},)"
+            R"({"roles":{"motion":"motion"},"sequence":{"200":"motion"}}]})");
+  auto some = parts({4}, false);
+  some[1].sparse = {4};
+  EXPECT_EQ(JoinedSource(std::move(some)).description("", std::vector<std::string>{"image", "reference"}),
+            R"({"quell_joined":1,"parts":[{"roles":{"image":"color"},"sequence":{"100":"color"}},)"
+            R"({"roles":{"reference":"color"},"frames":"4","sequence":{"200":"color"}}]})");
+  EXPECT_EQ(JoinedSource(parts({0}, true)).description("", std::vector<std::string>{"reference"}),
+            R"({"quell_joined":1,"parts":[{"roles":{},"sequence":{"100":"color"}},)"
+            R"({"roles":{"reference":"color"},"still":true,"sequence":{"200":"color"}}]})");
+}
+
+TEST(JoinedSource, TellsOfFilesUnderItsOwnNames) {
+  JoinedSource joined(parts({3, 4, 5}));
+  std::set<std::string> told;
+  joined.watch_files([&](const FileRead& read) {
+    told.insert(fmt::format("{} {} {}", read.name, read.hash, fmt::join(read.roles, "+")));
+  });
+  EXPECT_EQ(told, (std::set<std::string>{"100.exr hash image", "motion, reference: 200.exr hash motion+reference"}));
 }
 
 TEST(JoinedSource, NamesTheFrameThatIsMissing) {

@@ -48,23 +48,42 @@ TEST(KeptSource, MakesAFrameOnceAndGivesItsBitsEverAfter) {
   int asked = 0, asked_again = 0;
   Made made(5, &asked_again);
   for (int run = 0; run < 2; ++run) {
-    KeptSource kept(std::make_unique<Made>(5, &asked), "color", scratch.path("kept"));
+    KeptSource kept(std::make_unique<Made>(5, &asked), "color", scratch.path("kept"), {{"source.scene", "0123"}});
     for (const std::int64_t frame : {3, 4}) EXPECT_TRUE(same_bits(frame_of(kept, frame), frame_of(made, frame)));
     EXPECT_TRUE(kept.cut_before(3));
   }
   EXPECT_EQ(asked, 2);
   std::filesystem::remove(scratch.path("kept") + "/frame.0004.exr");
-  KeptSource kept(std::make_unique<Made>(5, &asked), "color", scratch.path("kept"));
+  KeptSource kept(std::make_unique<Made>(5, &asked), "color", scratch.path("kept"), {{"source.scene", "0123"}});
   EXPECT_TRUE(same_bits(frame_of(kept, 4), frame_of(made, 4)));
   EXPECT_EQ(asked, 3);
+}
+
+TEST(KeptSource, TellsWhatKeptFramesWereMadeFrom) {
+  const Scratch scratch;
+  int asked = 0;
+  for (int run = 0; run < 2; ++run) {
+    KeptSource kept(std::make_unique<Made>(5, &asked), "color", scratch.path("kept"), {{"source.scene", "0123"}});
+    std::vector<FileRead> told;
+    kept.watch_files([&](const FileRead& read) { told.push_back(read); });
+    frame_of(kept, 4);
+    // The source tells for itself when it is asked; this one has nothing to tell.
+    ASSERT_EQ(told.size(), std::size_t(run));
+    if (run == 0) continue;
+    EXPECT_EQ(told[0].frame, 4);
+    EXPECT_EQ(told[0].name, "source.scene");
+    EXPECT_EQ(told[0].hash, "0123");
+    EXPECT_EQ(told[0].roles, std::vector<std::string>{"color"});
+  }
+  EXPECT_EQ(asked, 1);
 }
 
 TEST(KeptSource, MakesAnewWhatHasAnotherSize) {
   const Scratch scratch;
   int asked = 0;
-  KeptSource small(std::make_unique<Made>(5, &asked), "color", scratch.path("kept"));
+  KeptSource small(std::make_unique<Made>(5, &asked), "color", scratch.path("kept"), {{"source.scene", "0123"}});
   frame_of(small, 3);
-  KeptSource large(std::make_unique<Made>(6, &asked), "color", scratch.path("kept"));
+  KeptSource large(std::make_unique<Made>(6, &asked), "color", scratch.path("kept"), {{"source.scene", "0123"}});
   EXPECT_EQ(frame_of(large, 3).width(), 6);
   EXPECT_EQ(asked, 2);
 }

@@ -86,7 +86,7 @@ Results results() {
   Results r;
   r.name = "a_b", r.warm_up = 1, r.version = "1", r.simd = "scalar";
   r.metrics = {{"low", "Low", "", false, 0.0}, {"high", "High", "dB", true, std::nullopt}};
-  for (const char* name : {"base", "a,b_c"}) r.variants.push_back({name, "", "{}", "f", "c", 1, 1, false});
+  for (const char* name : {"base", "a,b_c"}) r.variants.push_back({name, "", "{}", "{}", "f", "c", 1, 1, false});
   r.sequences = {{"s", "s.json", 4, 3, {1, 2, 3}}};
   const auto frame = [](std::optional<double> low, std::optional<double> high) { return FrameNumbers{low, high}; };
   r.numbers = {
