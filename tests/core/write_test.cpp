@@ -59,7 +59,7 @@ TEST(WriteGraph, SvgfWithItsSubgraphsAndHistory) {
 }
 
 TEST(WriteGraph, NarrowedToOneOutput) {
-  const auto loaded = svgf({{Edit::Kind::tap, "age.length"}});
+  const auto loaded = svgf({{Edit::Kind::tap, "age.count"}});
   ASSERT_TRUE(loaded.graph) << loaded.messages;
   const auto tap =
       std::size_t(std::ranges::find(loaded.graph->outputs, true, &GraphOutput::tap) - loaded.graph->outputs.begin());
