@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <cstdio>
 
 namespace quell {
@@ -29,10 +30,8 @@ struct TuneArguments {
 };
 
 std::string step_text(const Tuning& tuning, const TunedStep& step) {
-  std::string text;
-  for (std::size_t i = 0; i < step.parameters.size(); ++i)
-    text += fmt::format("{}{}={:.6g}", i ? " " : "", tuning.parameters[i].name, step.parameters[i]);
-  return fmt::format("{:.6g}  {}{}", step.score.value, text, step.remembered ? "  (known)" : "");
+  return fmt::format("{:.6g}  {}{}", step.score.value, parameters_text(tuning, step.parameters),
+                     step.remembered ? "  (known)" : "");
 }
 
 // A graph with what was found: a variant of an installed graph, and of a file's, which may lie anywhere, the whole.
@@ -62,8 +61,11 @@ ordered_json score_json(const TunedScore& score) { return {{"value", score.value
 std::string result_json(const Tuning& tuning, const TunedResult& r) {
   ordered_json j = {{"quell_tuning", 1}, {"name", tuning.name}, {"minimise", tuning.minimise->text()}};
   auto& parameters = j["best"] = ordered_json::object();
-  for (std::size_t i = 0; i < tuning.parameters.size(); ++i)
-    parameters[tuning.parameters[i].name] = r.steps[r.best].parameters[i];
+  for (std::size_t i = 0; i < tuning.parameters.size(); ++i) {
+    const double value = r.steps[r.best].parameters[i];
+    auto& written = parameters[tuning.parameters[i].name];
+    tuning.parameters[i].range.integer ? written = std::int64_t(value) : written = value;
+  }
   j["converged"] = r.converged;
   j["training"] = {{"before", score_json(r.training_before)}, {"after", score_json(r.steps[r.best].score)}};
   if (r.held_out_before)

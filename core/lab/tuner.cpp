@@ -41,10 +41,8 @@ ordered_json to_json(const std::vector<double>& parameters, const TunedScore& sc
   return {{"parameters", parameters}, {"value", score.value}, {"numbers", score.numbers}};
 }
 
-}  // namespace
-
-Json Tuner::edits(const std::vector<double>& parameters) const {
-  Json all = tuning_.training.variants.front().edits;
+// Sets a parameter in a graph's edits, whatever they set it to before.
+void set(Json& all, const TunedParameter& p, double value) {
   all.kind = Json::Kind::object;
   auto it = std::ranges::find(all.members, "set", &JsonMember::key);
   if (it == all.members.end()) {
@@ -53,30 +51,84 @@ Json Tuner::edits(const std::vector<double>& parameters) const {
     all.members.push_back({"set", {}, std::move(set)});
     it = all.members.end() - 1;
   }
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const auto& p = tuning_.parameters[i];
-    Json value;
-    value.position = p.position;
-    if (p.range.integer)
-      value.kind = Json::Kind::integer, value.integer = std::int64_t(parameters[i]);
-    else
-      value.kind = Json::Kind::number, value.number = parameters[i];
-    std::erase_if(it->value.members, [&](const JsonMember& m) { return m.key == p.name; });
-    it->value.members.push_back({p.name, p.position, std::move(value)});
+  std::erase_if(it->value.members, [&](const JsonMember& m) { return m.key == p.name; });
+  Json json;
+  json.position = p.position;
+  json.kind = p.range.integer ? Json::Kind::integer : Json::Kind::number;
+  json.number = value;
+  if (p.range.integer) json.integer = std::int64_t(value);
+  it->value.members.push_back({p.name, p.position, std::move(json)});
+}
+
+// What a parameter is in the graph itself, whichever node it belongs to: that which differs between two others. None
+// where it reaches no number of a node.
+std::optional<double> own_value(const Graph& own, const Graph& one, const Graph& other) {
+  if (own.nodes.size() != one.nodes.size() || own.nodes.size() != other.nodes.size()) return std::nullopt;
+  for (std::size_t n = 0; n < own.nodes.size(); ++n) {
+    const auto params = own.nodes[n].type().params();
+    for (int p = 0; p < int(params.size()); ++p) {
+      const auto value = [&](const Graph& graph) -> std::optional<double> {
+        const auto& instance = graph.nodes[n].instance;
+        if (params[std::size_t(p)].kind == QUELL_INT) return instance.get_int(p);
+        if (params[std::size_t(p)].kind == QUELL_FLOAT) return six_digits(double(instance.get_float(p)));
+        return std::nullopt;
+      };
+      if (value(one) != value(other)) return value(own);
+    }
   }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string parameters_text(const Tuning& tuning, std::span<const double> values) {
+  std::string text;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    text += fmt::format("{}{}={:.6g}", i ? " " : "", tuning.parameters[i].name, values[i]);
+  return text;
+}
+
+Json Tuner::edits(const std::vector<double>& parameters) const {
+  Json all = tuning_.training.variants.front().edits;
+  for (std::size_t i = 0; i < parameters.size(); ++i) set(all, tuning_.parameters[i], parameters[i]);
   return all;
 }
 
+// The graph itself, and with each parameter at both ends of its range.
+std::vector<StudyVariant> Tuner::ends() const {
+  const auto& own = tuning_.training.variants.front();
+  std::vector<StudyVariant> all = {own};
+  for (const auto& p : tuning_.parameters)
+    for (const double end : {p.range.from, p.range.to}) {
+      all.push_back(own);
+      all.back().name = p.name;
+      set(all.back().edits, p, end);
+    }
+  return all;
+}
+
+void Tuner::start_from(const Trial& trial) {
+  for (std::size_t i = 0; i < tuning_.parameters.size(); ++i) {
+    const auto& p = tuning_.parameters[i];
+    const auto& graphs = trial.variants();
+    auto& range = ranges_.emplace_back(p.range);
+    const auto own = own_value(graphs[0].plain, graphs[2 * i + 1].plain, graphs[2 * i + 2].plain);
+    if (p.start)
+      range.start = *p.start;
+    else if (own && *own >= range.from && *own <= range.to)
+      range.start = *own;
+  }
+}
+
 bool Tuner::check() {
-  std::vector<double> first;
-  for (const auto& p : tuning_.parameters) first.push_back(written(p.range.start, p.range.integer));
   for (const Study* study : {&tuning_.training, tuning_.held_out ? &*tuning_.held_out : nullptr}) {
     if (!study) continue;
     Study tried = *study;
-    tried.variants.front().edits = edits(first);
+    tried.variants = ends();
     for (const auto& sequence : tried.sequences) {
       const auto trial = Trial::load(tried, sequence, false, lab_);
       if (!trial) return false;
+      if (ranges_.empty()) start_from(*trial);
       key_ += trial->identity(std::nullopt, 0) + fingerprint(trial->variants().front().graph);
     }
   }
@@ -117,11 +169,9 @@ TunedResult Tuner::run() {
   TunedResult result;
   const Json own = tuning_.training.variants.front().edits;
   result.training_before = score(tuning_.training, own);
-  std::vector<SearchRange> ranges;
-  for (const auto& p : tuning_.parameters) ranges.push_back(p.range);
-  const auto found = search(ranges, tuning_.evaluations, tuning_.tolerance, [&](std::span<const double> units) {
+  const auto found = search(ranges_, tuning_.evaluations, tuning_.tolerance, [&](std::span<const double> units) {
     TunedStep step;
-    for (std::size_t i = 0; i < units.size(); ++i) step.parameters.push_back(written(units[i], ranges[i].integer));
+    for (std::size_t i = 0; i < units.size(); ++i) step.parameters.push_back(written(units[i], ranges_[i].integer));
     if (const auto it = known_.find(step.parameters); it != known_.end()) {
       step.score = it->second, step.remembered = true;
     } else {

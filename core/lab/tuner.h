@@ -8,10 +8,15 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace quell {
+
+// "alpha=0.1 sigma_depth=2": values of the tuning's parameters, in its order.
+std::string parameters_text(const Tuning&, std::span<const double> values);
 
 // Means and the like of the metrics that the expression names, and what it comes to.
 struct TunedScore {
@@ -44,8 +49,8 @@ class Tuner {
   Tuner(const Tuning& tuning, Laboratory& lab, const TunerOptions& options)
       : tuning_(tuning), lab_(lab), options_(options) {}
 
-  // Loads the graph with the first point, so that what is wrong with parameters, metrics and sequences is found before
-  // anything is run; that goes to the diagnostics.
+  // Loads the graph as it is and with each parameter at both ends of its range, so that what is wrong with parameters,
+  // metrics and sequences is found before anything is run; that goes to the diagnostics. Finds where to start.
   bool check();
   // Throws Error; what was tried before is in the journal, and is taken from there by the next run.
   TunedResult run();
@@ -54,6 +59,8 @@ class Tuner {
   Json edits(const std::vector<double>& parameters) const;
 
  private:
+  std::vector<StudyVariant> ends() const;
+  void start_from(const Trial&);
   TunedScore score(const Study&, const Json& edits);
   void read_journal();
   void write_journal() const;
@@ -61,6 +68,7 @@ class Tuner {
   const Tuning& tuning_;
   Laboratory& lab_;
   const TunerOptions& options_;
+  std::vector<SearchRange> ranges_;
   std::string key_;  // of all that decides the scores
   std::map<std::vector<double>, TunedScore> known_;
   std::vector<std::vector<double>> order_;  // of what is known

@@ -90,7 +90,7 @@ class TuningParser {
     if (!m.value.is(Json::Kind::object))
       return error(m.value.position, path, fmt::format("must be an object, not {}", m.value.shown()));
     check_keys(m.value, path, std::vector<std::string>{"from", "to", "start", "scale", "integer"}, diagnostics_);
-    TunedParameter p{m.key, {}, m.key_position};
+    TunedParameter p{m.key, {}, std::nullopt, m.key_position};
     const auto from = number(m.value, "from", path), to = number(m.value, "to", path);
     for (const auto& [key, there] : {std::pair{"from", bool(from)}, {"to", bool(to)}})
       if (!there && !m.value.find(key)) error(m.value.position, path, fmt::format("has no \"{}\"", key));
@@ -110,10 +110,13 @@ class TuningParser {
     if (p.range.integer && !(whole(*from) && whole(*to)))
       return error(m.value.position, path,
                    fmt::format("a range of whole numbers has such for ends, not {} and {}", *from, *to));
-    p.range.start = number(m.value, "start", path).value_or(in_range(*from, *to, p.range.log, 0.5));
-    if (p.range.start < *from || p.range.start > *to)
+    p.range.start = in_range(*from, *to, p.range.log, 0.5);
+    p.start = number(m.value, "start", path);
+    if (p.start && (*p.start < *from || *p.start > *to))
       error(m.value.find("start")->position, path + ".start",
-            fmt::format("{} is not between {} and {}", p.range.start, *from, *to));
+            fmt::format("{} is not between {} and {}", *p.start, *from, *to));
+    else if (p.start && p.range.integer && !whole(*p.start))
+      error(m.value.find("start")->position, path + ".start", fmt::format("{} is not a whole number", *p.start));
     tuning_.parameters.push_back(std::move(p));
   }
 

@@ -15,8 +15,9 @@
 namespace quell {
 
 struct TunedParameter {
-  std::string name;  // as --set takes it: "alpha", "level0.atrous.step"
-  SearchRange range;
+  std::string name;             // as --set takes it: "alpha", "level0.atrous.step"
+  SearchRange range;            // it starts in its middle
+  std::optional<double> start;  // none: the graph's own value where the range holds it, else the middle
   TextPosition position;
 };
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace quell::test {
 namespace {
@@ -28,11 +29,12 @@ class Tune : public QuellCommand {
       "outputs": {"color": "expose"}})");
     tuning(R"("stops": { "from": -1, "to": 7 })", "rmse.max", 40);
   }
-  void tuning(const std::string& parameters, const std::string& minimise, int evaluations) {
+  void tuning(const std::string& parameters, const std::string& minimise, int evaluations,
+              const std::string& graph = "brighten.json") {
     write("tune.json", fmt::format(R"({{
   "quell_tune": 1,
   "name": "Brightness",
-  "graph": "brighten.json",
+  "graph": "{}",
   "parameters": {{ {} }},
   "minimise": "{}",
   "train": ["shot.json"],
@@ -41,7 +43,7 @@ class Tune : public QuellCommand {
   "tolerance": 0.0001,
   "warm_up": 0
 }})",
-                                   parameters, minimise, evaluations));
+                                   graph, parameters, minimise, evaluations));
   }
   ProgramResult tune(std::vector<std::string> args) {
     return quell(std::vector<std::string>{"tune", "tune.json"} + args);
@@ -58,6 +60,42 @@ TEST_F(Tune, FindsTheParameterAndWritesAGraphWithIt) {
   EXPECT_LT(j["held_out"]["after"]["value"].get<double>(), 0.01);
   ASSERT_EQ(quell({"run", "found/variant.json", "shot.json", "-o", "o/x.####.exr", "--quiet"}).exit, 0);
   EXPECT_NEAR(pixels("o/x.0001.exr").channels.at("G")[0], 1, 0.01);
+}
+
+TEST_F(Tune, TriesWholeNumbersOnly) {
+  write("soften.json", R"({"quell": 1, "inputs": {"color": "radiance"}, "params": {"radius": 2},
+    "nodes": {"soften": {"type": "gaussian", "in": {"image": "color"}, "set": {"kernel": "box", "radius": "$radius"}}},
+    "outputs": {"color": "soften"}})");
+  tuning(R"("radius": { "from": 1, "to": 6, "integer": true })", "rmse", 12, "soften.json");
+  const auto r = tune({"-o", "whole", "--quiet"});
+  ASSERT_EQ(r.exit, 0) << r.err;
+  const auto j = json::parse(read("whole/tuning.json"));
+  std::set<double> tried;
+  for (const auto& step : j["steps"]) tried.insert(step["parameters"][0].get<double>());
+  EXPECT_GT(tried.size(), 1u);
+  for (const double radius : tried) EXPECT_EQ(radius, std::round(radius));
+  EXPECT_TRUE(j["best"]["radius"].is_number_integer());
+  EXPECT_EQ(quell({"run", "whole/variant.json", "shot.json", "-o", "o/x.####.exr", "--quiet"}).exit, 0);
+}
+
+TEST_F(Tune, StartsFromTheGraphItself) {
+  const auto first = [&] {
+    const auto r = tune({"-o", "t", "--quiet", "--restart"});
+    EXPECT_EQ(r.exit, 0) << r.err;
+    return json::parse(read("t/tuning.json"))["steps"][0]["parameters"][0].get<double>();
+  };
+  tuning(R"("stops": { "from": -1, "to": 7 })", "rmse", 2);
+  EXPECT_EQ(first(), 0) << "as the graph has it";
+  tuning(R"("expose.stops": { "from": -1, "to": 7 })", "rmse", 2);
+  EXPECT_EQ(first(), 0) << "by whatever name";
+  tuning(R"("stops": { "from": 1, "to": 7 })", "rmse", 2);
+  EXPECT_EQ(first(), 4) << "the range does not hold it";
+  tuning(R"("stops": { "from": -1, "to": 7, "start": 5 })", "rmse", 2);
+  EXPECT_EQ(first(), 5);
+  tuning(R"("stops": { "from": -1, "to": 7 } }, "set": { "stops": 2)", "rmse", 2);
+  EXPECT_EQ(first(), 2) << "as the tuning has it";
+  const auto j = json::parse(read("t/tuning.json"));
+  EXPECT_EQ(j["training"]["before"], (json{{"value", j["steps"][0]["value"]}, {"numbers", j["steps"][0]["numbers"]}}));
 }
 
 TEST_F(Tune, GoesOnWhereItWasStopped) {
@@ -103,6 +141,11 @@ TEST_F(Tune, SaysWhatIsWrong) {
   expect("parameters.stops: a range of whole numbers has such for ends, not 0.2 and 0.8");
   tuning(R"("stops": { "from": 0, "to": 3, "start": 4 })", "rmse", 5);
   expect("parameters.stops.start: 4 is not between 0 and 3");
+  tuning(R"("stops": { "from": 0, "to": 3, "start": 0.5, "integer": true })", "rmse", 5);
+  expect("parameters.stops.start: 0.5 is not a whole number");
+  tuning(R"("stops": { "from": -1000, "to": 1000 })", "rmse", 5);
+  expect("stops: -1000 is not a number from -32 to 32");
+  EXPECT_NE(tune({"--check"}).err.find("1000 is not a number from -32 to 32"), std::string::npos);
   tuning(R"("stop": { "from": 0, "to": 3 })", "rmse", 5);
   expect("the graph has no parameter 'stop'");
   tuning(R"("stops": { "from": 0, "to": 3 })", "rmse +", 5);
