@@ -136,7 +136,7 @@ bool Tuner::check() {
   return lab_.diagnostics.ok();
 }
 
-TunedScore Tuner::score(const Study& study, const Json& edits) {
+TunedScore Tuner::score(const Study& study, const Json& edits, const std::string& whose) {
   Study tried = study;
   tried.variants.front().edits = edits;
   std::map<std::string, std::vector<double>> numbers;
@@ -161,34 +161,48 @@ TunedScore Tuner::score(const Study& study, const Json& edits) {
     score.numbers[name] = parse_threshold(name + " > 0", "minimise").of(summarize(all));
   }
   score.value = (*tuning_.minimise)([&](const std::string& name) { return score.numbers.at(name); });
-  return score;
+  if (std::isfinite(score.value)) return score;
+  std::string numbers_text;
+  for (const auto& [name, number] : score.numbers)
+    numbers_text += fmt::format("{}{} is {:.6g}", numbers_text.empty() ? "" : ", ", name, number);
+  throw Error(Exit::usage,
+              fmt::format("{}: '{}' comes to {}\n  {}\n  it has to be a number wherever the search looks: max(…, 1e-6) "
+                          "keeps a divisor, a root or a logarithm above 0",
+                          whose, tuning_.minimise->text(),
+                          std::isnan(score.value) ? "no number"
+                          : score.value > 0       ? "infinity"
+                                                  : "-infinity",
+                          numbers_text));
 }
 
 TunedResult Tuner::run() {
   read_journal();
   TunedResult result;
   const Json own = tuning_.training.variants.front().edits;
-  result.training_before = score(tuning_.training, own);
+  result.training_before = score(tuning_.training, own, "the graph itself");
   const auto found = search(ranges_, tuning_.evaluations, tuning_.tolerance, [&](std::span<const double> units) {
     TunedStep step;
     for (std::size_t i = 0; i < units.size(); ++i) step.parameters.push_back(written(units[i], ranges_[i].integer));
     if (const auto it = known_.find(step.parameters); it != known_.end()) {
       step.score = it->second, step.remembered = true;
     } else {
-      step.score = score(tuning_.training, edits(step.parameters));
+      step.score =
+          score(tuning_.training, edits(step.parameters),
+                fmt::format("step {}, {}", result.steps.size() + 1, parameters_text(tuning_, step.parameters)));
       known_[step.parameters] = step.score;
       order_.push_back(step.parameters);
       write_journal();
     }
     result.steps.push_back(step);
-    if (!(result.steps[result.best].score.value <= step.score.value)) result.best = result.steps.size() - 1;
+    if (step.score.value < result.steps[result.best].score.value) result.best = result.steps.size() - 1;
     if (options_.tried) options_.tried(step);
     return step.score.value;
   });
   result.converged = found.converged;
   if (tuning_.held_out) {
-    result.held_out_before = score(*tuning_.held_out, own);
-    result.held_out_after = score(*tuning_.held_out, edits(result.steps[result.best].parameters));
+    result.held_out_before = score(*tuning_.held_out, own, "the graph itself, held out");
+    result.held_out_after =
+        score(*tuning_.held_out, edits(result.steps[result.best].parameters), "what was found, held out");
   }
   return result;
 }
@@ -202,7 +216,7 @@ void Tuner::read_journal() {
   try {
     for (const auto& step : j.at("steps")) {
       TunedScore score;
-      score.value = step.at("value").is_null() ? std::nan("") : step.at("value").get<double>();
+      score.value = step.at("value").get<double>();
       score.numbers = step.at("numbers").get<std::map<std::string, double>>();
       auto parameters = step.at("parameters").get<std::vector<double>>();
       order_.push_back(parameters);

@@ -61,7 +61,8 @@ class Tuner {
  private:
   std::vector<StudyVariant> ends() const;
   void start_from(const Trial&);
-  TunedScore score(const Study&, const Json& edits);
+  // `whose` begins what is said of numbers that come to none.
+  TunedScore score(const Study&, const Json& edits, const std::string& whose);
   void read_journal();
   void write_journal() const;
 

@@ -124,6 +124,20 @@ TEST_F(Tune, AChangedFileIsTriedAnew) {
   EXPECT_NEAR(json::parse(read("t/tuning.json"))["best"]["stops"].get<double>(), 2, 0.01);
 }
 
+TEST_F(Tune, StopsWhereTheExpressionIsNoNumber) {
+  tuning(R"("stops": { "from": -1, "to": 7 })", "log2(0 - rmse)", 5);
+  auto r = tune({"-o", "t", "--quiet"});
+  EXPECT_EQ(r.exit, 2);
+  EXPECT_NE(r.err.find("the graph itself: 'log2(0 - rmse)' comes to no number\n  rmse is 0.875\n"), std::string::npos)
+      << r.err;
+  // At 3 stops nothing is left of the error.
+  tuning(R"("stops": { "from": -1, "to": 7, "start": 3 })", "1 / rmse", 5);
+  r = tune({"-o", "t", "--quiet"});
+  EXPECT_EQ(r.exit, 2);
+  EXPECT_NE(r.err.find("step 1, stops=3: '1 / rmse' comes to infinity\n  rmse is 0\n"), std::string::npos) << r.err;
+  EXPECT_FALSE(std::filesystem::exists(path("t/variant.json")));
+}
+
 TEST_F(Tune, SaysWhatIsWrong) {
   const auto expect = [&](const std::string& text) {
     const auto r = tune({"-o", "t"});
