@@ -25,7 +25,7 @@ std::string_view trimmed(std::string_view s) {
 
 }  // namespace
 
-double Threshold::of(const Summary& s) const {
+double MetricStatistic::of(const Summary& s) const {
   if (statistic == "median") return s.median;
   if (statistic == "p95") return s.p95;
   if (statistic == "min") return s.minimum;
@@ -46,6 +46,16 @@ bool Threshold::met_by(double number) const {
   return false;
 }
 
+MetricStatistic parse_statistic(std::string_view text) {
+  const auto dot = text.find('.');
+  MetricStatistic s{std::string(text.substr(0, dot)),
+                    dot == std::string_view::npos ? "mean" : std::string(text.substr(dot + 1))};
+  if (std::ranges::find(kStatistics, s.statistic) == kStatistics.end())
+    throw Error(Exit::usage, fmt::format("there is no statistic '{}'; {}", s.statistic,
+                                         possibilities("there are", s.statistic, kStatistics)));
+  return s;
+}
+
 Threshold parse_threshold(std::string_view text, std::string_view where) {
   const auto refuse = [&](const std::string& why) -> Error {
     return Error(Exit::usage, fmt::format("{} '{}': {}", where, text, why));
@@ -62,13 +72,12 @@ Threshold parse_threshold(std::string_view text, std::string_view where) {
     t.relation = equal ? Threshold::Relation::at_most : Threshold::Relation::below;
 
   const auto name = trimmed(text.substr(0, sign));
-  const auto dot = name.find('.');
-  t.metric = name.substr(0, dot);
-  t.statistic = dot == std::string_view::npos ? "mean" : std::string(name.substr(dot + 1));
-  if (t.metric.empty()) throw refuse("no metric stands before the comparison");
-  if (std::ranges::find(kStatistics, t.statistic) == kStatistics.end())
-    throw refuse(fmt::format("there is no statistic '{}'; {}", t.statistic,
-                             possibilities("there are", t.statistic, kStatistics)));
+  if (name.empty() || name.front() == '.') throw refuse("no metric stands before the comparison");
+  try {
+    static_cast<MetricStatistic&>(t) = parse_statistic(name);
+  } catch (const Error& e) {
+    throw refuse(e.what());
+  }
 
   const auto number = trimmed(text.substr(sign + (equal ? 2 : 1)));
   const auto [end, problem] = std::from_chars(number.data(), number.data() + number.size(), t.limit);

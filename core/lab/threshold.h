@@ -9,21 +9,30 @@
 
 namespace quell {
 
-struct Threshold {
-  enum class Relation { above, at_least, below, at_most };
-
-  std::string text;       // as it was written
+// A number of what a metric says of all frames: "flip.p95".
+struct MetricStatistic {
   std::string metric;     // "flip"
   std::string statistic;  // of the frames: mean, median, p95, min or max
+
+  double of(const Summary&) const;
+};
+
+// METRIC[.STATISTIC]; without a statistic the mean is meant. Throws Error(Exit::usage) that says what could stand
+// there.
+MetricStatistic parse_statistic(std::string_view text);
+
+struct Threshold : MetricStatistic {
+  enum class Relation { above, at_least, below, at_most };
+
+  std::string text;  // as it was written
   Relation relation;
   double limit;
 
-  double of(const Summary&) const;  // the statistic
   bool met_by(double number) const;
 };
 
-// METRIC[.STATISTIC] followed by >, >=, < or <= and a number; without a statistic the mean is meant. Throws
-// Error(Exit::usage) that says what is wrong and what could stand there; `where` begins it ("--fail").
+// METRIC[.STATISTIC] followed by >, >=, < or <= and a number. Throws Error(Exit::usage) that says what is wrong and
+// what could stand there; `where` begins it ("--fail").
 Threshold parse_threshold(std::string_view text, std::string_view where);
 
 }  // namespace quell

@@ -2,6 +2,7 @@
 #include "core/lab/tuner.h"
 
 #include "core/lab/digest.h"
+#include "core/lab/edits.h"
 #include "core/lab/group_run.h"
 #include "core/lab/range.h"
 #include "core/lab/summary.h"
@@ -79,6 +80,31 @@ std::optional<double> own_value(const Graph& own, const Graph& one, const Graph&
   return std::nullopt;
 }
 
+struct Frames {
+  const StudySequence& declared;
+  std::vector<std::int64_t> numbers;
+
+  // What they are frames of.
+  std::string origin() const {
+    Json source = object_json(declared.position);
+    source.members = declared.source;
+    return fmt::format("{}\n{}\n{}", declared.path, declared.root.value_or(""), edits_text(source));
+  }
+};
+
+// Frames that a search saw say nothing of how what it found does on others.
+void refuse_seen(std::span<const Frames> seen, const Frames& held_out, Diagnostics& diagnostics) {
+  for (const auto& training : seen) {
+    if (training.origin() != held_out.origin()) continue;
+    const auto frame = std::ranges::find_first_of(held_out.numbers, training.numbers);
+    if (frame == held_out.numbers.end()) continue;
+    return diagnostics.error(held_out.declared.position, held_out.declared.where,
+                             fmt::format("the search sees frame {} of '{}' as {}", *frame, held_out.declared.written,
+                                         training.declared.where),
+                             {R"(held out is another sequence, other "frames", or another seed in its "source")"});
+  }
+}
+
 }  // namespace
 
 std::string parameters_text(const Tuning& tuning, std::span<const double> values) {
@@ -121,13 +147,17 @@ void Tuner::start_from(const Trial& trial) {
 }
 
 bool Tuner::check() {
+  const auto variants = ends();
+  std::vector<Frames> seen;
   for (const Study* study : {&tuning_.training, tuning_.held_out ? &*tuning_.held_out : nullptr}) {
     if (!study) continue;
     Study tried = *study;
-    tried.variants = ends();
-    for (const auto& sequence : tried.sequences) {
+    tried.variants = variants;
+    for (const auto& sequence : study->sequences) {
       const auto trial = Trial::load(tried, sequence, false, lab_);
       if (!trial) return false;
+      const Frames frames{sequence, trial->sequence().frames};
+      study == &tuning_.training ? seen.push_back(frames) : refuse_seen(seen, frames, lab_.diagnostics);
       if (ranges_.empty()) start_from(*trial);
       key_ += trial->identity(std::nullopt, 0) + fingerprint(trial->variants().front().graph);
     }
@@ -154,11 +184,12 @@ TunedScore Tuner::score(const Study& study, const Json& edits, const std::string
   }
   TunedScore score;
   for (const auto& name : tuning_.minimise->names()) {
-    const auto& all = numbers[metric_of(name)];
+    const auto statistic = parse_statistic(name);
+    const auto& all = numbers[statistic.metric];
     if (all.empty())
       throw Error(Exit::input,
-                  fmt::format("no frame behind the warm-up has a number of the metric '{}'", metric_of(name)));
-    score.numbers[name] = parse_threshold(name + " > 0", "minimise").of(summarize(all));
+                  fmt::format("no frame behind the warm-up has a number of the metric '{}'", statistic.metric));
+    score.numbers[name] = statistic.of(summarize(all));
   }
   score.value = (*tuning_.minimise)([&](const std::string& name) { return score.numbers.at(name); });
   if (std::isfinite(score.value)) return score;

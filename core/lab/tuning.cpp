@@ -65,10 +65,14 @@ class TuningParser {
       error(json.position, "", R"(has no "minimise": what to make small, such as "flicker - psnr_unbiased")");
     if (!j) return;
     try {
-      tuning_.minimise.emplace(j->text);
-      // Each name is a metric and perhaps a statistic, by the rules of conditions.
-      for (const auto& name : tuning_.minimise->names()) parse_threshold(name + " > 0", "minimise");
-      if (tuning_.minimise->names().empty()) error(j->position, "minimise", "names no metric");
+      Expression expression(j->text);
+      for (const auto& name : expression.names()) {
+        const auto metric = parse_statistic(name).metric;
+        if (std::ranges::find(metrics_, metric, &StudyMetric::name) == metrics_.end())
+          metrics_.push_back({metric, j->position, "minimise"});
+      }
+      if (metrics_.empty()) return error(j->position, "minimise", "names no metric");
+      tuning_.minimise = std::move(expression);
     } catch (const Error& e) {
       error(j->position, "minimise", e.what());
     }
@@ -148,22 +152,17 @@ class TuningParser {
     const Json* list = member(json, key, Json::Kind::list, "", diagnostics_);
     if (!json.find(key)) error(json.position, "", fmt::format("has no \"{}\": the sequences to tune on", key));
     if (list && list->items.empty()) error(list->position, key, "is empty; it lists the sequences to tune on");
-    if (!list || list->items.empty() || !tuning_.minimise) return std::nullopt;
-    StudyPart part{json, "", "base", *list, key, {}};
-    for (const auto& name : tuning_.minimise->names())
-      if (std::ranges::find(part.metrics, metric_of(name), &StudyMetric::name) == part.metrics.end())
-        part.metrics.push_back({metric_of(name), json.find("minimise")->position, "minimise"});
-    return parse_study(part, tuning_.file, graphs_, diagnostics_);
+    if (!list || list->items.empty()) return std::nullopt;
+    return parse_study({json, "", "base", *list, key, metrics_}, tuning_.file, graphs_, diagnostics_);
   }
 
   const fs::path& graphs_;
   Diagnostics& diagnostics_;
   Tuning tuning_;
+  std::vector<StudyMetric> metrics_;  // of the expression
 };
 
 }  // namespace
-
-std::string metric_of(const std::string& name) { return name.substr(0, name.find('.')); }
 
 std::optional<Tuning> load_tuning(const std::string& path, const fs::path& graphs, Diagnostics& diagnostics) {
   return TuningParser(path, graphs, diagnostics).parse();

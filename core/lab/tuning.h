@@ -37,7 +37,4 @@ struct Tuning {
 // All mistakes of the file together; whether parameters and metrics exist is for the graph to say.
 std::optional<Tuning> load_tuning(const std::string& path, const std::filesystem::path& graphs, Diagnostics&);
 
-// The metric that a name of an expression means, without ".p95" and the like.
-std::string metric_of(const std::string& name);
-
 }  // namespace quell

@@ -18,11 +18,11 @@ class Tune : public QuellCommand {
  protected:
   // `exposure` by 3 stops makes the frames their reference.
   void SetUp() override {
-    for (const char* frame : {"1", "2"}) {
+    for (const char* frame : {"1", "2", "3"}) {
       write_color(std::string("c.000") + frame + ".exr", 16, 8, 0.125f);
       write_color(std::string("r.000") + frame + ".exr", 16, 8, 1.0f);
     }
-    write("shot.json", R"({"quell_sequence": 1, "frames": "1-2", "inputs": {"color": {"file": "c.####.exr"}},
+    write("shot.json", R"({"quell_sequence": 1, "frames": "1-3", "inputs": {"color": {"file": "c.####.exr"}},
                            "reference": {"file": "r.####.exr"}})");
     write("brighten.json", R"({"quell": 1, "inputs": {"color": "radiance"}, "params": {"stops": 0.0},
       "nodes": {"expose": {"type": "exposure", "in": {"image": "color"}, "set": {"stops": "$stops"}}},
@@ -30,20 +30,20 @@ class Tune : public QuellCommand {
     tuning(R"("stops": { "from": -1, "to": 7 })", "rmse.max", 40);
   }
   void tuning(const std::string& parameters, const std::string& minimise, int evaluations,
-              const std::string& graph = "brighten.json") {
+              const std::string& graph = "brighten.json", const std::string& held_out = "3") {
     write("tune.json", fmt::format(R"({{
   "quell_tune": 1,
   "name": "Brightness",
   "graph": "{}",
   "parameters": {{ {} }},
   "minimise": "{}",
-  "train": ["shot.json"],
-  "held_out": [{{ "path": "shot.json", "frames": "2", "name": "second" }}],
+  "train": [{{ "path": "shot.json", "frames": "1-2" }}],
+  "held_out": [{{ "path": "shot.json", "frames": "{}", "name": "last" }}],
   "evaluations": {},
   "tolerance": 0.0001,
   "warm_up": 0
 }})",
-                                   graph, parameters, minimise, evaluations));
+                                   graph, parameters, minimise, held_out, evaluations));
   }
   ProgramResult tune(std::vector<std::string> args) {
     return quell(std::vector<std::string>{"tune", "tune.json"} + args);
@@ -119,7 +119,7 @@ TEST_F(Tune, GoesOnWhereItWasStopped) {
 
 TEST_F(Tune, AChangedFileIsTriedAnew) {
   ASSERT_EQ(tune({"-o", "t", "--quiet"}).exit, 0);
-  for (const char* frame : {"1", "2"}) write_color(std::string("c.000") + frame + ".exr", 16, 8, 0.25f);
+  for (const char* frame : {"1", "2", "3"}) write_color(std::string("c.000") + frame + ".exr", 16, 8, 0.25f);
   ASSERT_EQ(tune({"-o", "t", "--quiet", "--resume"}).exit, 0);
   EXPECT_NEAR(json::parse(read("t/tuning.json"))["best"]["stops"].get<double>(), 2, 0.01);
 }
@@ -167,13 +167,15 @@ TEST_F(Tune, SaysWhatIsWrong) {
   tuning(R"("stops": { "from": 0, "to": 3 })", "3", 5);
   expect("minimise: names no metric");
   tuning(R"("stops": { "from": 0, "to": 3 })", "rmse.most", 5);
-  expect("there is no statistic 'most'");
+  expect("tune.json:6:15: error: minimise: there is no statistic 'most'; there are: mean");
   tuning(R"("stops": { "from": 0, "to": 3 })", "flicker", 5);
   expect("'flicker' reads 'motion'");
   write("tune.json", R"({ "quell_tune": 1, "graph": "brighten.json", "train": ["rooom"], "held_out": [],
     "parameters": { "stops": { "from": 0, "to": 3 } }, "minimise": "rmse" })");
   expect("tune.json:1:56: error: train[0]: there is no sequence 'rooom'");
   expect("tune.json:1:78: error: held_out: is empty; it lists the sequences to tune on");
+  tuning(R"("stops": { "from": 0, "to": 3 })", "rmse", 5, "brighten.json", "3,2");
+  expect("error: held_out[0]: the search sees frame 2 of 'shot.json' as train[0]");
   tuning(R"("stops": { "from": 0, "to": 3 })", "rmse", 0);
   expect("evaluations: must be a number from 1 to 100000, not 0");
 }
