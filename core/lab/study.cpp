@@ -5,6 +5,7 @@
 #include "core/lab/edits.h"
 #include "core/lab/variants.h"
 #include "core/report/suggest.h"
+#include "core/sequence/frame_range.h"
 
 #include <fmt/format.h>
 
@@ -153,6 +154,8 @@ class StudyParser {
     s.frames = text(item, "frames", s.where);
     if (s.frames && s.frames->empty())
       error(item.find("frames")->position, s.where + ".frames", "is empty; leave it out for all frames");
+    else if (std::string problem; s.frames && !parse_frame_range(*s.frames, problem))
+      error(item.find("frames")->position, s.where + ".frames", problem);
     if (const auto root = text(item, "root", s.where)) s.root = (folder() / *root).lexically_normal().string();
     for (const auto& [key, into] : {std::pair{"source", &s.source}, {"reference", &s.reference}})
       if (const Json* set = member(item, key, Json::Kind::object, s.where, diagnostics_)) *into = set->members;

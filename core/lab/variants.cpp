@@ -136,6 +136,7 @@ class Expander {
   void left_out(const Json& study) {
     const Json* all = member(study, "leave_one_out", Json::Kind::list, "", diagnostics_);
     if (!all) return;
+    if (all->items.empty()) error(all->position, "leave_one_out", "is empty; it lists the nodes to leave out");
     for (std::size_t i = 0; i < all->items.size(); ++i) {
       const Json& item = all->items[i];
       const std::string where = fmt::format("leave_one_out[{}]", i);
@@ -261,6 +262,7 @@ class Expander {
   void baselines(const Json& study) {
     const Json* all = member(study, "baselines", Json::Kind::list, "", diagnostics_);
     if (!all) return;
+    if (all->items.empty()) error(all->position, "baselines", "is empty; it lists other graphs to compare with");
     for (std::size_t i = 0; i < all->items.size(); ++i) {
       const Json& item = all->items[i];
       const std::string where = fmt::format("baselines[{}]", i);
