@@ -45,6 +45,8 @@ struct StudySeeds {
   TextPosition position;
 };
 
+inline constexpr int kWarmUp = 4;  // where a file says nothing of it
+
 struct Study {
   std::string file, name, about;
   std::string output;                    // of the graphs, to be judged; "" for the first
@@ -52,7 +54,7 @@ struct Study {
   std::vector<StudyVariant> variants;    // the graph itself, called "base", first
   std::vector<StudyMetric> metrics;      // at least one
   std::optional<StudySeeds> seeds;
-  int warm_up = 4;  // frames after a beginning that enter no summary
+  int warm_up = kWarmUp;  // frames at the beginning that enter no summary
 };
 
 // More is a mistake, and is refused before it takes anybody's time.

@@ -64,6 +64,14 @@ std::string describe(Instance node) {
   return fmt::format("{} {} {}\n", node.type().name(), node.type().version(), node.describe());
 }
 
+GraphRequest request_of(const StudyVariant& variant, const Laboratory& lab) {
+  GraphRequest request;
+  request.graph = variant.graph;
+  request.graphs = lab.graphs;
+  if (!variant.edits.members.empty()) request.laid_over = variant.edits;
+  return request;
+}
+
 std::string describe(const SequenceInput& input, std::span<const std::int64_t> frames) {
   std::string text = fmt::format("{}\n", input.role);
   for (const auto frame : frames) {
@@ -82,11 +90,37 @@ std::string describe(const SequenceInput& input, std::span<const std::int64_t> f
 
 std::optional<Trial> Trial::load(const Study& study, const StudySequence& declared, bool maps, Laboratory& lab) {
   Trial trial(study, declared);
-  if (!trial.load_frames(lab)) return std::nullopt;
+  if (!trial.load_frames(lab)) {
+    trial.look_at_names(lab);
+    return std::nullopt;
+  }
   trial.look_for_reference();
   const bool metrics = trial.load_metrics(lab);
-  if (!trial.load_variants(maps, lab) || !metrics) return std::nullopt;
+  if (!trial.load_variants(maps, lab) || !metrics || !trial.judges_some_frame(lab)) return std::nullopt;
   return trial;
+}
+
+// What can be said of metrics and graphs without a sequence, so that it is said together with what is wrong with that.
+void Trial::look_at_names(Laboratory& lab) const {
+  for (const auto& m : study_->metrics) {
+    Scoped scoped(lab.diagnostics, m.position, m.where, fmt::format("of the metric '{}'", m.name));
+    load_metric(m.name, lab.graphs, lab.registry, scoped.inner);
+  }
+  for (const auto& v : study_->variants) {
+    Scoped scoped(lab.diagnostics, v.position, v.where, fmt::format("of the variant '{}'", v.name));
+    if (!load_graph(request_of(v, lab), lab.registry, scoped.inner) && &v == &study_->variants.front()) return;
+  }
+}
+
+bool Trial::judges_some_frame(Laboratory& lab) const {
+  const auto frames = sequence_.frames.size();
+  if (study_->metrics.empty() || frames > std::size_t(study_->warm_up)) return true;
+  lab.diagnostics.error(
+      declared_->position, declared_->where,
+      fmt::format("the warm-up of {} takes all {} of its frames, so that none is judged", study_->warm_up, frames),
+      {fmt::format("\"warm_up\" is {} where the file does not say it; {} is the most for this sequence", kWarmUp,
+                   frames - 1)});
+  return false;
 }
 
 bool Trial::load_frames(Laboratory& lab) {
@@ -213,11 +247,8 @@ bool Trial::load_variants(bool maps, Laboratory& lab) {
 
 std::optional<JudgedGraph> Trial::judged(const StudyVariant& variant, bool maps, Laboratory& lab) const {
   Scoped scoped(lab.diagnostics, variant.position, variant.where, fmt::format("of the variant '{}'", variant.name));
-  GraphRequest request;
-  request.graph = variant.graph;
-  request.graphs = lab.graphs;
+  GraphRequest request = request_of(variant, lab);
   request.roles = roles_;
-  if (!variant.edits.members.empty()) request.laid_over = variant.edits;
   auto graph = load_graph(request, lab.registry, scoped.inner);
   if (!graph) return std::nullopt;
   const auto error = [&](std::string text, std::vector<std::string> notes = {}) {

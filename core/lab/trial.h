@@ -68,9 +68,11 @@ class Trial {
  private:
   Trial(const Study& study, const StudySequence& declared) : study_(&study), declared_(&declared) {}
   bool load_frames(Laboratory&);
+  void look_at_names(Laboratory&) const;
   void look_for_reference();
   bool load_metrics(Laboratory&);
   bool load_variants(bool maps, Laboratory&);
+  bool judges_some_frame(Laboratory&) const;
   std::optional<JudgedGraph> judged(const StudyVariant&, bool maps, Laboratory&) const;
   Instance with_seed(const std::optional<StudySeeds>& seeds, std::size_t seed) const;
 

@@ -339,7 +339,8 @@ TEST_F(Ablate, AReferenceThatIsNotFiniteEndsTheStudy) {
   for (int f = 1; f <= 3; ++f) write_color(fmt::format("truth_{}.exr", f), 9, 5, f == 3 ? NAN : 0.25f);
   write("shot.json", R"({ "quell_sequence": 1, "frames": "1-3",
     "inputs": { "color": { "file": "color_@.exr" } }, "reference": { "file": "truth_@.exr" } })");
-  write("study.json", R"({ "quell_study": 1, "graph": "unfiltered", "sequences": ["shot.json"], "metrics": ["mse"] })");
+  write("study.json", R"({ "quell_study": 1, "graph": "unfiltered", "sequences": ["shot.json"], "metrics": ["mse"],
+                           "warm_up": 0 })");
   const auto r = quell({"ablate", "study.json", "-o", "out", "--quiet"});
   EXPECT_EQ(r.exit, 3);
   EXPECT_NE(r.err.find("the reference of 'shot': frame 3: "), std::string::npos) << r.err;
