@@ -38,20 +38,59 @@ std::string encoded(const std::string& text, bool property) {
   return out;
 }
 
-// In GitHub Actions a failure is shown beside the line of the suite that it belongs to.
-void annotate(const Diagnostics& diagnostics, const SuiteTest& test, const std::string& text) {
-  const char* actions = std::getenv("GITHUB_ACTIONS");
-  if (!actions || std::string_view(actions) != "true") return;
-  const auto place = diagnostics.sources.place_parts(test.position);
-  fmt::print("::error file={},line={},title={}::{}\n", encoded(place.name, true), place.line, encoded(test.name, true),
-             encoded(text, false));
+// What a run tells people and CI systems.
+class Printer {
+ public:
+  // stdout is left to what --junit writes there.
+  Printer(const Sources& sources, bool junit) : sources_(sources), out_(junit ? stderr : stdout) {}
+
+  // In GitHub Actions what is wrong is shown beside the line of the suite that it belongs to.
+  void annotate(TextPosition position, const std::string& title, const std::string& text) const {
+    const char* actions = std::getenv("GITHUB_ACTIONS");
+    if (!actions || std::string_view(actions) != "true") return;
+    const auto place = sources_.place_parts(position);
+    fmt::print(out_, "::error file={},line={},title={}::{}\n", encoded(place.name, true), place.line,
+               encoded(title, true), encoded(text, false));
+  }
+
+  void print(const TestOutcome& o) const {
+    const char* word = !o.good() ? "FAILED" : o.written.empty() ? "passed" : "written";
+    fmt::print(out_, "{} {} ({:.2f} s)\n", word, o.name, o.seconds);
+    for (const auto& w : o.written) fmt::print(out_, "  {}\n", w);
+    for (const auto& f : o.failures) fmt::print(out_, "  {}\n", f);
+    if (!o.error.empty()) fmt::print(out_, "  error: {}\n", o.error);
+    std::fflush(out_);
+  }
+
+  // Golden images that were only just written have been held to nothing.
+  void sum_up(const std::vector<TestOutcome>& outcomes) const {
+    const auto failed = std::ranges::count_if(outcomes, [](const TestOutcome& o) { return !o.good(); });
+    const auto written =
+        std::ranges::count_if(outcomes, [](const TestOutcome& o) { return o.good() && !o.written.empty(); });
+    fmt::print(out_, "{} passed, {} failed{}\n", std::ssize(outcomes) - failed - written, failed,
+               written ? fmt::format(", {} written", written) : "");
+  }
+
+ private:
+  const Sources& sources_;
+  std::FILE* out_;
+};
+
+void write_junit(const std::string& path, const std::string& name, const std::vector<TestOutcome>& outcomes) {
+  const auto text = junit_xml(name, outcomes);
+  if (path == "-")
+    std::fputs(text.c_str(), stdout);
+  else if (!path.empty())
+    write_file(path, text);
 }
 
-void print(const TestOutcome& o) {
-  fmt::print("{} {} ({:.2f} s)\n", o.good() ? "passed" : "FAILED", o.name, o.seconds);
-  for (const auto& f : o.failures) fmt::print("  {}\n", f);
-  if (!o.error.empty()) fmt::print("  error: {}\n", o.error);
-  std::fflush(stdout);
+// A suite that is wrong itself: one outcome, which says how.
+int refuse(const TestArguments& a, Commander& commander, const Printer& printer) {
+  auto& diagnostics = commander.diagnostics();
+  for (const auto* d : diagnostics.in_order())
+    if (d->severity == Severity::error) printer.annotate(d->position, "suite", d->text);
+  write_junit(a.junit, a.suite, {TestOutcome{.name = a.suite, .error = diagnostics.format()}});
+  return commander.report();
 }
 
 std::vector<std::size_t> chosen(const Suite& suite, const std::vector<std::string>& only) {
@@ -72,8 +111,9 @@ int run(const TestArguments& a) {
   Commander commander(a.plugins);
   auto& diagnostics = commander.diagnostics();
   const auto suite = load_suite(a.suite, commander.locations().graphs, diagnostics);
-  if (!suite) return commander.report();
-  if (!a.junit.empty()) check_writable(a.junit);
+  const Printer printer(diagnostics.sources, a.junit == "-");
+  if (!a.junit.empty() && a.junit != "-") check_writable(a.junit);
+  if (!suite) return refuse(a, commander, printer);
   Laboratory lab{commander.registry(), diagnostics, commander.locations().graphs, a.references, a.threads, &cancel};
   // All are read before the first is run: a mistake in the last would else be found when the others have taken their
   // time.
@@ -83,7 +123,8 @@ int run(const TestArguments& a) {
     const auto& study = suite->tests[i].study;
     trials.push_back(Trial::load(study, study.sequences.front(), false, lab));
   }
-  if (const int code = commander.report()) return code;
+  if (!diagnostics.ok()) return refuse(a, commander, printer);
+  commander.report();
 
   SuiteRunOptions options;
   options.run.threads = a.threads;
@@ -96,14 +137,13 @@ int run(const TestArguments& a) {
   for (std::size_t i = 0; i < tests.size(); ++i) {
     const auto& test = suite->tests[tests[i]];
     const auto& o = outcomes.emplace_back(run_test(test, *trials[i], lab, options));
-    if (!a.quiet || !o.good()) print(o);
-    for (const auto& f : o.failures) annotate(diagnostics, test, f);
-    if (!o.error.empty()) annotate(diagnostics, test, o.error);
+    if (!a.quiet || !o.good()) printer.print(o);
+    for (const auto& f : o.failures) printer.annotate(test.position, test.name, f);
+    if (!o.error.empty()) printer.annotate(test.position, test.name, o.error);
   }
-  if (!a.junit.empty()) write_file(a.junit, junit_xml(suite->name, outcomes));
-  const auto good = std::ranges::count_if(outcomes, &TestOutcome::good);
-  fmt::print("{} passed, {} failed\n", good, std::ssize(outcomes) - good);
-  return good == std::ssize(outcomes) ? 0 : int(Exit::threshold);
+  write_junit(a.junit, suite->name, outcomes);
+  printer.sum_up(outcomes);
+  return std::ranges::all_of(outcomes, &TestOutcome::good) ? 0 : int(Exit::threshold);
 }
 
 }  // namespace
@@ -118,7 +158,7 @@ void add_test(CLI::App& app, int& exit) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   sub->add_flag("--update-golden", a->update, "Writes the golden images anew, to be looked at before they are kept.");
-  sub->add_option("--junit", a->junit, "Writes the outcomes as JUnit's XML.")->type_name("FILE");
+  sub->add_option("--junit", a->junit, "Writes the outcomes as JUnit's XML; - is stdout.")->type_name("FILE");
   sub->add_option("--failures", a->failures, "Where pictures go that fail, beside their golden ones.")
       ->type_name("DIR");
   sub->add_option("--references", a->references, "Folder where references are kept that a source node makes.")

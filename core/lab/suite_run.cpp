@@ -64,7 +64,9 @@ class TestSink : public FrameSink {
       for (const auto key :
            {"Software", "quell:version", "quell:simd", "quell:plugins", "quell:graph", "quell:fingerprint"})
         options.metadata[key] = made_.at(key);
-      return write_image(path, picture, QUELL_RADIANCE, options);
+      write_image(path, picture, QUELL_RADIANCE, options);
+      outcome_.written.push_back(path);
+      return;
     }
     std::error_code error;
     if (!std::filesystem::exists(path, error))
@@ -115,7 +117,7 @@ void check_conditions(const SuiteTest& test, const Trial& trial, const JournalEn
     for (auto f = std::size_t(test.study.warm_up); f < entry.numbers.size(); ++f)
       if (entry.numbers[f][m]) numbers.push_back(*entry.numbers[f][m]);
     if (numbers.empty()) {
-      outcome.failures.push_back(fmt::format("{}: no frame has a number of this metric", t.text));
+      outcome.failures.push_back(fmt::format("{}: no frame behind the warm-up has a number of this metric", t.text));
       continue;
     }
     const double number = t.of(summarize(numbers));
@@ -143,7 +145,7 @@ TestOutcome run_test(const SuiteTest& test, const Trial& trial, Laboratory& lab,
         {trial.variants().front().plain, *source, log, {options.command, options.simd, "error", {}, lab.graphs}},
         outcome);
     run_graph(group.graph(), *source, sink, options.run);
-    if (!options.update_golden) check_conditions(test, trial, sink.entry(), outcome);
+    check_conditions(test, trial, sink.entry(), outcome);
   } catch (const Error& e) {
     if (e.exit() == Exit::interrupted) throw;
     outcome.error = e.what();

@@ -14,7 +14,7 @@ namespace quell {
 
 struct SuiteRunOptions {
   RunOptions run;
-  bool update_golden = false;      // writes golden images instead of comparing with them
+  bool update_golden = false;      // writes golden images instead of comparing with them; conditions hold as ever
   std::filesystem::path failures;  // where pictures go that fail, with what they should be; "" for nowhere
   std::vector<std::string> command;
   std::string simd;

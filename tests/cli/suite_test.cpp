@@ -41,7 +41,11 @@ TEST_F(SuiteCommand, GoldenImagesAreMadeOnceAndHeldTo) {
       << r.out;
   EXPECT_TRUE(r.out.ends_with("1 passed, 1 failed\n")) << r.out;
 
-  EXPECT_EQ(test({"--update-golden", "--quiet"}).out, "2 passed, 0 failed\n");
+  r = test({"--update-golden"});
+  EXPECT_EQ(r.exit, 0);
+  EXPECT_NE(r.out.find("s)\n  golden/plain.0002.exr\n"), std::string::npos) << r.out;
+  EXPECT_TRUE(r.out.starts_with("written plain (")) << r.out;
+  EXPECT_TRUE(r.out.ends_with("1 passed, 0 failed, 1 written\n")) << r.out;
   EXPECT_EQ(files("golden"), (std::vector<std::string>{"plain.0002.exr"}));
   r = test({"--quiet"});
   EXPECT_EQ(r.exit, 0) << r.out;
@@ -62,6 +66,51 @@ TEST_F(SuiteCommand, ConditionsOnMetricsFail) {
   EXPECT_NE(r.out.find("\n  rmse.max > 0.2: the max is 0.25\n"), std::string::npos) << r.out;
   EXPECT_TRUE(r.out.ends_with("0 passed, 1 failed\n")) << r.out;
   EXPECT_NE(read("out.xml").find("tests=\"1\" failures=\"1\" errors=\"0\""), std::string::npos) << read("out.xml");
+}
+
+TEST_F(SuiteCommand, ConditionsHoldWhileGoldenImagesAreWritten) {
+  suite("rmse.max > 0.2");
+  const auto r = test({"--update-golden"});
+  EXPECT_EQ(r.exit, 1);
+  EXPECT_TRUE(r.out.ends_with("0 passed, 1 failed, 1 written\n")) << r.out;
+}
+
+TEST_F(SuiteCommand, StdoutIsLeftToJUnit) {
+  const auto r = test({"--only", "judged", "--junit", "-"});
+  EXPECT_EQ(r.exit, 0) << r.err;
+  EXPECT_TRUE(r.out.starts_with("<?xml") && r.out.ends_with("</testsuites>\n")) << r.out;
+  EXPECT_NE(r.err.find("1 passed, 0 failed\n"), std::string::npos) << r.err;
+  EXPECT_FALSE(std::filesystem::exists(path("-")));
+}
+
+TEST_F(SuiteCommand, ASuiteThatIsWrongItselfIsToldToCiToo) {
+  write("suite.json", R"({ "quell_suite": 1, "tests": {} })");
+  const auto r = test({"--junit", "out.xml"}, {.environment = {{"GITHUB_ACTIONS", "true"}}});
+  EXPECT_EQ(r.exit, 2);
+  EXPECT_EQ(r.out, "::error file=suite.json,line=1,title=suite::a suite needs \"tests\": at least one, by name\n");
+  EXPECT_NE(read("out.xml").find("errors=\"1\""), std::string::npos) << read("out.xml");
+}
+
+TEST_F(SuiteCommand, AllThatIsWrongWithATestIsSaidTogether) {
+  write(
+      "suite.json",
+      R"({ "quell_suite": 1, "tests": { "a": { "graph": "nope", "sequence": "nope.json", "fail": ["nope > 1"] } } })");
+  const auto r = test({});
+  EXPECT_EQ(r.exit, 3) << r.err;
+  EXPECT_NE(r.err.find("tests.a.sequence: cannot read 'nope.json'"), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("there is no metric 'nope'"), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("there is no graph 'nope'"), std::string::npos) << r.err;
+}
+
+TEST_F(SuiteCommand, AWarmUpLeavesAFrameToBeJudged) {
+  write("suite.json", R"({ "quell_suite": 1, "tests": {
+    "a": { "graph": "unfiltered", "sequence": "shot.json", "fail": ["rmse > 1"] },
+    "b": { "graph": "unfiltered", "sequence": "shot.json", "golden": { "frames": "2" } } } })");
+  const auto r = test({});
+  EXPECT_EQ(r.exit, 2);
+  EXPECT_EQ(r.err,
+            "suite.json:2:47: error: tests.a.sequence: the warm-up of 4 takes all 3 of its frames, so that none is "
+            "judged\n  \"warm_up\" is 4 where the file does not say it; 2 is the most for this sequence\n");
 }
 
 TEST_F(SuiteCommand, ALostFrameIsAnErrorOfItsTestAlone) {
