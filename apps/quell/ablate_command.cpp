@@ -123,10 +123,10 @@ void add_ablate(CLI::App& app, int& exit) {
          "-o,--output", a->output,
          "Folder for results.json, results.csv, timings.json, table.md, table.tex, report.html, images and variants.")
       ->type_name("DIR")
+      ->check(not_empty())
       ->capture_default_str();
-  sub->add_flag("--resume", a->resume,
-                "Goes on with what the folder holds: only what is missing, or has changed, is computed.");
-  sub->add_flag("--restart", a->restart, "Begins anew in a folder that holds the work of an earlier run.");
+  add_resume(*sub, a->resume, "Goes on with what the folder holds: only what is missing, or has changed, is computed.",
+             a->restart);
   sub->add_flag("--check", a->check, "Checks the study, its graphs, metrics and sequences, and runs nothing.");
   sub->add_flag(
       "--images", a->images,
@@ -135,7 +135,8 @@ void add_ablate(CLI::App& app, int& exit) {
   sub->add_option("--references", a->references,
                   "Folder where references are kept that a source node makes; runs may share it. Default: "
                   "DIR/references.")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(not_empty());
   sub->add_option("--threads", a->threads, "Threads; 0: every core that affinity and quotas grant.")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

@@ -40,6 +40,17 @@ CLI::Validator one_of(std::vector<std::string> words) {
       description, "one_of");
 }
 
+CLI::Validator not_empty() {
+  return CLI::Validator([](const std::string& text) { return std::string(text.empty() ? "is empty" : ""); }, "",
+                        "not_empty");
+}
+
+void add_resume(CLI::App& app, bool& resume, const std::string& what_resume_does, bool& restart) {
+  auto* option = app.add_flag("--resume", resume, what_resume_does);
+  app.add_flag("--restart", restart, "Begins anew in a folder that holds the work of an earlier run.")
+      ->excludes(option);
+}
+
 FrameSize frame_size(const std::string& text) {
   constexpr int kMost = 65536;
   FrameSize size{};

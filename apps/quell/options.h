@@ -11,6 +11,12 @@ namespace quell {
 // Accepts these words only; a message says what there is and what was probably meant.
 CLI::Validator one_of(std::vector<std::string> words);
 
+// What a variable of a script gives that nobody set: no name of a file, and a folder that nobody meant.
+CLI::Validator not_empty();
+
+// --resume and --restart of a folder that holds the work of an earlier run: one or the other.
+void add_resume(CLI::App&, bool& resume, const std::string& what_resume_does, bool& restart);
+
 // --size: of frames, pixels.
 struct FrameSize {
   int width, height;

@@ -158,11 +158,15 @@ void add_test(CLI::App& app, int& exit) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   sub->add_flag("--update-golden", a->update, "Writes the golden images anew, to be looked at before they are kept.");
-  sub->add_option("--junit", a->junit, "Writes the outcomes as JUnit's XML; - is stdout.")->type_name("FILE");
+  sub->add_option("--junit", a->junit, "Writes the outcomes as JUnit's XML; - is stdout.")
+      ->type_name("FILE")
+      ->check(not_empty());
   sub->add_option("--failures", a->failures, "Where pictures go that fail, beside their golden ones.")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(not_empty());
   sub->add_option("--references", a->references, "Folder where references are kept that a source node makes.")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(not_empty());
   sub->add_option("--threads", a->threads, "Threads; 0: every core that affinity and quotas grant.")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

@@ -6,6 +6,7 @@
 #include "core/graph/write.h"
 #include "core/lab/edits.h"
 #include "core/lab/tuner.h"
+#include "core/report/shell.h"
 #include "core/sequence/temporary_file.h"
 
 #include <fmt/format.h>
@@ -67,6 +68,9 @@ std::string result_json(const Tuning& tuning, const TunedResult& r) {
     tuning.parameters[i].range.integer ? written = std::int64_t(value) : written = value;
   }
   j["converged"] = r.converged;
+  j["quell"] = QUELL_VERSION, j["simd"] = simd_in_use(), j["plugins"] = r.graph.plugins;
+  j["command"] = shell_text(command_line());
+  j["fingerprint"] = r.graph.fingerprint, j["graph"] = ordered_json::parse(r.graph.text);
   j["training"] = {{"before", score_json(r.training_before)}, {"after", score_json(r.steps[r.best].score)}};
   if (r.held_out_before)
     j["held_out"] = {{"before", score_json(*r.held_out_before)}, {"after", score_json(*r.held_out_after)}};
@@ -144,13 +148,14 @@ void add_tune(CLI::App& app, int& exit) {
   sub->add_option("tuning", a->tuning, "A tuning file.")->required()->type_name("TUNING");
   sub->add_option("-o,--output", a->output, "Folder for variant.json, tuning.json and the journal.")
       ->type_name("DIR")
+      ->check(not_empty())
       ->capture_default_str();
-  sub->add_flag("--resume", a->resume, "Goes on with what the folder holds.");
-  sub->add_flag("--restart", a->restart, "Begins anew in a folder that holds the work of an earlier run.");
+  add_resume(*sub, a->resume, "Goes on with what the folder holds.", a->restart);
   sub->add_flag("--check", a->check, "Checks the file, its graph, metrics and sequences, and runs nothing.");
   sub->add_option("--references", a->references,
                   "Folder where references are kept that a source node makes. Default: DIR/references.")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(not_empty());
   sub->add_option("--threads", a->threads, "Threads; 0: every core that affinity and quotas grant.")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

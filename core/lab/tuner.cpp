@@ -1,6 +1,7 @@
 // Scores points of a search by running a graph, each point once.
 #include "core/lab/tuner.h"
 
+#include "core/graph/write.h"
 #include "core/lab/digest.h"
 #include "core/lab/edits.h"
 #include "core/lab/group_run.h"
@@ -8,6 +9,7 @@
 #include "core/lab/summary.h"
 #include "core/lab/threshold.h"
 #include "core/report/error.h"
+#include "core/run/provenance.h"
 #include "core/sequence/temporary_file.h"
 
 #include <fmt/format.h>
@@ -206,6 +208,18 @@ TunedScore Tuner::score(const Study& study, const Json& edits, const std::string
                           numbers_text));
 }
 
+TunedGraph Tuner::graph(const Json& edits) {
+  Study tried = tuning_.training;
+  tried.variants.front().edits = edits;
+  const auto trial = Trial::load(tried, tried.sequences.front(), false, lab_);
+  if (!trial) throw Error(Exit::usage, lab_.diagnostics.format());
+  const Group group(tried, *trial, {0}, false);
+  const auto source = trial->open(group.roles(), std::nullopt, 0, lab_);
+  if (!source) throw Error(lab_.diagnostics.exit(), lab_.diagnostics.format());
+  const auto& plain = trial->variants().front().plain;
+  return {write_graph(plain, lab_.graphs).text, fingerprint(plain), plugin_versions(group.graph(), *source)};
+}
+
 TunedResult Tuner::run() {
   read_journal();
   TunedResult result;
@@ -230,6 +244,7 @@ TunedResult Tuner::run() {
     return step.score.value;
   });
   result.converged = found.converged;
+  result.graph = graph(edits(result.steps[result.best].parameters));
   if (tuning_.held_out) {
     result.held_out_before = score(*tuning_.held_out, own, "the graph itself, held out");
     result.held_out_after =

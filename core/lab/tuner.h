@@ -30,10 +30,18 @@ struct TunedStep {
   bool remembered = false;  // from an earlier run
 };
 
+// How numbers came to be.
+struct TunedGraph {
+  std::string text;         // as a graph file
+  std::string fingerprint;  // of it
+  std::string plugins;      // node types with versions: its own, those of metrics and of what makes the frames
+};
+
 struct TunedResult {
   std::vector<TunedStep> steps;  // in the order in which they were tried
   std::size_t best = 0;          // of the steps
   bool converged = false;
+  TunedGraph graph;            // with the best step's parameters, on the first sequence
   TunedScore training_before;  // with the graph's own parameters
   std::optional<TunedScore> held_out_before, held_out_after;
 };
@@ -63,6 +71,7 @@ class Tuner {
   void start_from(const Trial&);
   // `whose` begins what is said of numbers that come to none.
   TunedScore score(const Study&, const Json& edits, const std::string& whose);
+  TunedGraph graph(const Json& edits);
   void read_journal();
   void write_journal() const;
 
