@@ -10,8 +10,8 @@ struct TestOutcome {
   std::string name;
   double seconds = 0;
   std::vector<std::string> failures;  // what it was held to and did not keep
-  std::vector<std::string> written;   // golden images that it made, which it was not held to
   std::string error;                  // what kept it from being run to its end
+  std::vector<std::string> written;   // golden images that it made, which it was not held to
   bool good() const { return failures.empty() && error.empty(); }
 };
 
