@@ -36,12 +36,9 @@ bool is_folder(const std::string& path) {
 #endif
 
 void PluginOptions::add_to(CLI::App& app) {
-  app.add_option("--plugins", folders,
-                 "Folder of plugins, searched before those installed; may be given more than once.")
-      ->type_name("DIR")
-      ->take_all()
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  repeatable(app.add_option("--plugins", folders,
+                            "Folder of plugins, searched before those installed; may be given more than once."))
+      ->type_name("DIR");
 }
 
 void GraphOptions::add_to(CLI::App& app) {
@@ -49,12 +46,7 @@ void GraphOptions::add_to(CLI::App& app) {
       ->required()
       ->type_name("GRAPH");
   const auto list = [&](const char* name, std::vector<std::string>& into, const char* doc, const char* form) {
-    app.add_option(name, into, doc)
-        ->type_name(form)
-        ->take_all()
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->group("Edits of the graph");
+    repeatable(app.add_option(name, into, doc))->type_name(form)->group("Edits of the graph");
   };
   list("--set", set, "Sets a parameter of the graph or of a node.", "NAME=VALUE");
   list("--swap", swap, "Replaces a node by one of another type; wires whose name and type fit are kept.", "NODE=TYPE");
@@ -82,11 +74,8 @@ void SequenceOptions::add_to(CLI::App& app, bool required) {
       ->check(one_of({std::begin(kMissingNames), std::end(kMissingNames)}))
       ->type_name("")
       ->capture_default_str();
-  app.add_option("--source", source, "Sets a parameter of the sequence's source node.")
-      ->type_name("NAME=VALUE")
-      ->take_all()
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  repeatable(app.add_option("--source", source, "Sets a parameter of the sequence's source node."))
+      ->type_name("NAME=VALUE");
 }
 
 Commander::Commander(const PluginOptions& plugins)

@@ -105,23 +105,23 @@ void add_compare(CLI::App& app, int& exit) {
                   "What metrics over time and of regions read besides: motion, ids, normals. Default: the reference, "
                   "where that is a sequence.")
       ->type_name("SEQUENCE");
-  sub->add_option("--metric", a->metrics,
-                  "Metrics with commas between: installed ones or files. Default: relmse, psnr_pu, ssim and flip; "
-                  "psnr_unbiased where the reference has halves, and flicker where motion is known.")
-      ->type_name("NAME,…")
-      ->take_all()
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  sub->add_option("--fail", a->fail,
-                  "Ends with exit code 1 when this holds: 'flip > 0.05', 'psnr_ldr.min < 30'. Of the frames' numbers "
-                  "mean is meant, or median, p95, min, max. May be given more than once.")
-      ->type_name("CONDITION")
-      ->take_all()
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  repeatable(
+      sub->add_option("--metric", a->metrics,
+                      "Metrics with commas between: installed ones or files. Default: relmse, psnr_pu, ssim and flip; "
+                      "psnr_unbiased where the reference has halves, and flicker where motion is known."))
+      ->type_name("NAME,…");
+  repeatable(sub->add_option(
+                 "--fail", a->fail,
+                 "Ends with exit code 1 when this holds: 'flip > 0.05', 'psnr_ldr.min < 30'. Of the frames' numbers "
+                 "mean is meant, or median, p95, min, max. May be given more than once."))
+      ->type_name("CONDITION");
   sub->add_option("--frames", a->request.frames, "Frames to compare: 1-20, 1-10x2, 1,5,7-9. Default: all.")
       ->type_name("RANGE");
   sub->add_option("--root", a->request.root, "Folder that sequence files' names are relative to.")->type_name("DIR");
+  sub->add_option("--references", a->request.references,
+                  "Folder where references are kept that a source node makes, so that they are made once; studies and "
+                  "suites may share it.")
+      ->type_name("DIR");
   sub->add_option("--warm-up", a->request.warm_up, "Frames at the beginning that enter no mean.")
       ->check(CLI::Range(0, 1 << 30))
       ->capture_default_str();

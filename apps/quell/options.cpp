@@ -51,6 +51,10 @@ void add_resume(CLI::App& app, bool& resume, const std::string& what_resume_does
       ->excludes(option);
 }
 
+CLI::Option* repeatable(CLI::Option* option) {
+  return option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false);
+}
+
 FrameSize frame_size(const std::string& text) {
   constexpr int kMost = 65536;
   FrameSize size{};

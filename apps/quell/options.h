@@ -17,6 +17,9 @@ CLI::Validator not_empty();
 // --resume and --restart of a folder that holds the work of an earlier run: one or the other.
 void add_resume(CLI::App&, bool& resume, const std::string& what_resume_does, bool& restart);
 
+// Lets an option be given more than once, with one value each time: what follows that value is no longer the option's.
+CLI::Option* repeatable(CLI::Option*);
+
 // --size: of frames, pixels.
 struct FrameSize {
   int width, height;

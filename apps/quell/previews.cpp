@@ -1,6 +1,8 @@
 // --preview: which picture each output gets.
 #include "apps/quell/previews.h"
 
+#include "apps/quell/options.h"
+
 #include "core/graph/preview.h"
 #include "core/report/error.h"
 
@@ -43,11 +45,8 @@ void PreviewOptions::add_to(CLI::App& app) {
          "--preview-graph", graph,
          "How previews show radiance: an installed graph (radiance, exposed, ocio) or a file. Implies --preview.")
       ->type_name("GRAPH");
-  app.add_option("--preview-set", set, "Sets a parameter of that graph, as in stops=2. Implies --preview.")
-      ->type_name("NAME=VALUE")
-      ->take_all()
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  repeatable(app.add_option("--preview-set", set, "Sets a parameter of that graph, as in stops=2. Implies --preview."))
+      ->type_name("NAME=VALUE");
 }
 
 void add_previews(Graph& graph, const PreviewOptions& options, Commander& commander) {

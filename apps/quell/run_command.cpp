@@ -136,13 +136,11 @@ void add_run(CLI::App& app, int& exit) {
   auto a = std::make_shared<RunArguments>();
   a->graph.add_to(*sub);
   a->sequence.add_to(*sub, true);
-  sub->add_option("-o,--output", a->output,
-                  "Where outputs go: a pattern for the first, NAME=PATTERN for any. Default: out/<name>.####.exr; the "
-                  "others are written beside the first.")
-      ->type_name("PATTERN")
-      ->take_all()
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  repeatable(sub->add_option(
+                 "-o,--output", a->output,
+                 "Where outputs go: a pattern for the first, NAME=PATTERN for any. Default: out/<name>.####.exr; the "
+                 "others are written beside the first."))
+      ->type_name("PATTERN");
   sub->add_flag("--float", a->full, "Writes 32-bit floats in place of halves.");
   sub->add_option("--compression", a->compression,
                   "Of EXR files. A level may follow: zip:9 (1 to 12, time for size), dwaa:100 (0 to 100000, size for "

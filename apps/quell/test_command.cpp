@@ -152,11 +152,8 @@ void add_test(CLI::App& app, int& exit) {
   auto* sub = app.add_subcommand("test", "Runs a suite: graphs held to golden images and to conditions on metrics.");
   auto a = std::make_shared<TestArguments>();
   sub->add_option("suite", a->suite, "A suite file.")->required()->type_name("SUITE");
-  sub->add_option("--only", a->only, "Runs the tests whose names hold this; may be given more than once.")
-      ->type_name("TEXT")
-      ->take_all()
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  repeatable(sub->add_option("--only", a->only, "Runs the tests whose names hold this; may be given more than once."))
+      ->type_name("TEXT");
   sub->add_flag("--update-golden", a->update, "Writes the golden images anew, to be looked at before they are kept.");
   sub->add_option("--junit", a->junit, "Writes the outcomes as JUnit's XML; - is stdout.")
       ->type_name("FILE")

@@ -87,6 +87,13 @@ TEST_F(Compare, ThresholdsDecideTheExitCode) {
   EXPECT_EQ(compare(args + std::vector<std::string>{"--fail", "rmse >= 0.25"}).exit, 1);
 }
 
+TEST_F(Compare, OptionsMayStandBeforePictures) {
+  const auto r = compare({"--reference", "truth.####.exr", "--fail", "mse > 9", "--metric", "mse", "near.####.exr",
+                          "far.####.exr", "--json", "n.json"});
+  ASSERT_EQ(r.exit, 0) << r.err;
+  EXPECT_NEAR(mean(numbers("n.json"), "far.####.exr", "mse"), 1, 1e-6);
+}
+
 TEST_F(Compare, JsonOnTheStandardOutputIsAlone) {
   const auto r =
       compare({"near.####.exr", "--reference", "truth.####.exr", "--metric", "mse", "--json", "-", "--frames", "2"});

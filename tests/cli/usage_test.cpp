@@ -163,6 +163,16 @@ std::vector<Mistake> mistakes() {
 INSTANTIATE_TEST_SUITE_P(Usage, Mistakes, testing::ValuesIn(mistakes()),
                          [](const auto& test) { return std::string(test.param.name); });
 
+TEST_F(Usage, OptionsMayStandBeforeWhatTheyAreFor) {
+  const auto behind = quell({"plan", "svgf", "--set", "alpha=0.3", "--bypass", "demodulate", "--set", "power=2"});
+  ASSERT_EQ(behind.exit, 0) << behind.err;
+  EXPECT_EQ(quell({"plan", "--set", "alpha=0.3", "--set", "power=2", "--bypass", "demodulate", "svgf"}).out,
+            behind.out);
+  const auto all = quell(
+      {"run", "--source", "width=16", "--source", "height=9", "--set", "alpha=0.3", "svgf", "room", "--frames", "0"});
+  EXPECT_EQ(all.exit, 0) << all.err;
+}
+
 TEST_F(Usage, SourceParametersBelongToSources) {
   write_color("c.0001.exr", 8, 8, 1);
   write("s.json", R"({"quell_sequence": 1, "inputs": {"color": {"file": "c.####.exr"}}})");
