@@ -98,7 +98,7 @@ class Comparison {
   }
 
   bool open() {
-    const OpenPictures how{request_.frames, request_.root, request_.threads, request_.cancel};
+    const OpenPictures how{request_.frames, request_.root, request_.references, request_.threads, request_.cancel};
     std::vector<JoinedSource::Part> parts;
     for (std::size_t i = 0; i < request_.pictures.size(); ++i) {
       const auto& p = request_.pictures[i];

@@ -1,7 +1,9 @@
 // Opens pictures that are compared, their reference and the features of a sequence.
 #include "apps/quell/pictures.h"
 
+#include "core/lab/kept_source.h"
 #include "core/run/node_source.h"
+#include "core/run/source_node.h"
 #include "core/sequence/pictures.h"
 
 #include <quell/types.h>
@@ -82,14 +84,19 @@ void open_reference(Commander& commander, const std::string& text, const std::st
   const auto options = sequence_options(text, open);
   auto sequence = commander.load(options);
   if (!sequence) return;
-  for (const auto& half : sequence->reference_sources) {
-    sequence->source = half.node;
-    add_part(commander, *sequence, options, label, {{half.role, "color"}}, open, parts);
+  auto made = sequence->reference_sources;
+  const bool own = !made.empty() || !sequence->references.empty();
+  if (!own && sequence->source) made.push_back({"reference", *sequence->source});
+  for (const auto& half : made) {
+    const auto node =
+        source_instance(half.node, {}, commander.registry(), commander.locations().graphs, commander.diagnostics());
+    if (!node) return;
+    auto source = std::make_unique<NodeSource>(*node, sequence->frames, sequence->cuts, open.threads, open.cancel);
+    parts.push_back({label, keep_reference(std::move(source), *node, open.references), {{half.role, "color"}}});
   }
-  if (!sequence->reference_sources.empty()) return;
+  if (!made.empty()) return;
   std::map<std::string, std::string> roles;
   for (const auto& reference : sequence->references) roles[reference.role] = reference.role;
-  const bool own = !roles.empty();
   if (!own) roles["reference"] = "color";
   auto* part = add_part(commander, *sequence, options, label, roles, open, parts);
   if (!part || !own) return;

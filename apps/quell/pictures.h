@@ -22,6 +22,8 @@ Pictures parse_pictures(const std::string& text);
 struct OpenPictures {
   const std::string& frames;  // --frames; "": all
   const std::string& root;    // of sequence files; "": their own
+  // Folder where references are kept that a source node makes; "": none are.
+  const std::string& references;
   int threads;
   const std::atomic<bool>* cancel;
 };
@@ -32,6 +34,7 @@ void open_pictures(Commander&, const std::string& text, const std::string& label
                    const OpenPictures&, std::vector<JoinedSource::Part>& parts);
 
 // A sequence gives its own reference, in halves if it has them, or its colour when it has none; pictures their colour.
+// What a node makes of it is kept.
 void open_reference(Commander&, const std::string& text, const std::string& label, const OpenPictures&,
                     std::vector<JoinedSource::Part>& parts);
 

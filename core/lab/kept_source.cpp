@@ -1,6 +1,8 @@
 // A source whose images are kept on disk.
 #include "core/lab/kept_source.h"
 
+#include "core/lab/digest.h"
+#include "core/run/named_files.h"
 #include "core/sequence/image_file.h"
 #include "core/sequence/image_writer.h"
 
@@ -50,6 +52,21 @@ void KeptSource::read(std::int64_t frame, std::span<const std::string> roles, st
   WriteOptions options;
   options.half = false;
   write_image(path, into[0], this->roles().at(role_), options);
+}
+
+std::string node_identity(Instance node) {
+  for (std::size_t p = 0; p < node.type().params().size(); ++p)
+    if (node.type().params()[p].kind == QUELL_PATH)
+      if (const auto file = std::string(node.get_text(int(p))); !file.empty())
+        node.set_text(int(p), digest_of_file(file));
+  return fmt::format("{} {} {}\n", node.type().name(), node.type().version(), node.describe());
+}
+
+std::unique_ptr<FrameSource> keep_reference(std::unique_ptr<NodeSource> source, const Instance& node,
+                                            const std::filesystem::path& references) {
+  if (references.empty()) return source;
+  return std::make_unique<KeptSource>(std::move(source), "color", references / digest(node_identity(node)),
+                                      named_files("source", node));
 }
 
 }  // namespace quell

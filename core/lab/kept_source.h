@@ -1,6 +1,7 @@
 // A source whose images are kept on disk: what takes minutes to make is made once.
 #pragma once
 
+#include "core/run/node_source.h"
 #include "core/sequence/frame_source.h"
 
 #include <filesystem>
@@ -44,5 +45,14 @@ class KeptSource : public FrameSource {
   std::map<std::string, std::string> made_from_;
   FileWatcher watcher_;
 };
+
+// All that decides what a node without inputs makes, as text: its type, version and parameters. Files that they name
+// count by what they hold, wherever they lie.
+std::string node_identity(Instance);
+
+// The colour that a node makes, kept in a folder of its own among `references`; "" for none, where it is made anew.
+// Every program that keeps references there finds what others have made.
+std::unique_ptr<FrameSource> keep_reference(std::unique_ptr<NodeSource>, const Instance&,
+                                            const std::filesystem::path& references);
 
 }  // namespace quell

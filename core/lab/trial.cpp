@@ -1,12 +1,10 @@
 // Loads what a study names, for one sequence, and says of every mistake which variant or metric it belongs to.
 #include "core/lab/trial.h"
 
-#include "core/lab/digest.h"
 #include "core/lab/halves.h"
 #include "core/lab/joined_source.h"
 #include "core/lab/kept_source.h"
 #include "core/report/suggest.h"
-#include "core/run/named_files.h"
 #include "core/run/node_source.h"
 #include "core/run/source_node.h"
 #include "core/sequence/frame_range.h"
@@ -54,15 +52,6 @@ class Scoped {
   TextPosition position_;
   std::string where_, whose_;
 };
-
-// Files count by what they hold, wherever they lie.
-std::string describe(Instance node) {
-  for (std::size_t p = 0; p < node.type().params().size(); ++p)
-    if (node.type().params()[p].kind == QUELL_PATH)
-      if (const auto file = std::string(node.get_text(int(p))); !file.empty())
-        node.set_text(int(p), digest_of_file(file));
-  return fmt::format("{} {} {}\n", node.type().name(), node.type().version(), node.describe());
-}
 
 GraphRequest request_of(const StudyVariant& variant, const Laboratory& lab) {
   GraphRequest request;
@@ -311,13 +300,8 @@ std::unique_ptr<FrameSource> Trial::open(const std::vector<std::string>& roles, 
   if (!input && !files) return nullptr;
   auto& first = source_ ? add("the frames", std::move(input)) : add("the frames", std::move(files));
   for (const auto& role : own) first.roles[role] = role;
-  for (const auto& [role, node] : reference_nodes_) {
-    std::unique_ptr<FrameSource> reference = made(node);
-    if (!lab.references.empty())
-      reference = std::make_unique<KeptSource>(std::move(reference), "color", lab.references / digest(describe(node)),
-                                               named_files("source", node));
-    add("the reference", std::move(reference)).roles[role] = "color";
-  }
+  for (const auto& [role, node] : reference_nodes_)
+    add("the reference", keep_reference(made(node), node, lab.references)).roles[role] = "color";
   if (!sequence_.references.empty() && !reference_frames_.empty()) {
     std::vector<std::string> halves;
     for (const auto& half : sequence_.references) halves.push_back(half.role);
@@ -340,8 +324,8 @@ std::string Trial::identity(const std::optional<StudySeeds>& seeds, std::size_t 
   std::string text = fmt::format("frames {}\ncuts", frame_range_text(sequence_.frames));
   for (const auto cut : sequence_.cuts) text += fmt::format(" {}", cut);
   text += "\n";
-  if (source_) text += "source " + describe(with_seed(seeds, seed));
-  for (const auto& [role, node] : reference_nodes_) text += fmt::format("{} {}", role, describe(node));
+  if (source_) text += "source " + node_identity(with_seed(seeds, seed));
+  for (const auto& [role, node] : reference_nodes_) text += fmt::format("{} {}", role, node_identity(node));
   for (const auto* list : {&sequence_.inputs, &sequence_.references})
     for (const auto& input : *list) text += "files " + describe(input, sequence_.frames);
   return text;

@@ -144,6 +144,36 @@ TEST_F(Compare, ASequenceServesReferenceAndMotion) {
   EXPECT_EQ(empty, 1);
 }
 
+TEST_F(Compare, ReferencesThatANodeMakesAreKept) {
+  write("small.json", R"({"quell_sequence": 1, "frames": "0-1",
+    "source": {"type": "path_tracer", "set": {"scene": "quell:scenes/room.json", "width": 24, "height": 16}},
+    "reference": {"source": {"type": "path_tracer",
+                             "set": {"scene": "quell:scenes/room.json", "width": 24, "height": 16, "spp": 2}}}})");
+  const auto judged = [&](const std::vector<std::string>& more) {
+    const std::vector<std::string> args = {"small.json", "--reference", "small.json", "--metric", "mse", "--json", "-"};
+    const auto r = compare(args + more);
+    EXPECT_EQ(r.exit, 0) << r.err;
+    return json::parse(r.out)["rows"];
+  };
+  const auto anew = judged({});
+  EXPECT_EQ(judged({"--references", "kept"}), anew);
+  const auto kept = files("kept");
+  ASSERT_EQ(kept.size(), 2u);
+  EXPECT_TRUE(kept[0].ends_with("/frame.0000.exr")) << kept[0];
+  EXPECT_EQ(judged({"--references", "kept"}), anew);
+  write_color("kept/" + kept[1], 24, 16, 7);
+  EXPECT_EQ(judged({"--references", "kept", "--frames", "0"})[0], anew[0]);
+  EXPECT_NE(judged({"--references", "kept"})[1], anew[1]) << "what is kept is read";
+  // A sequence without a reference of its own is one by its colour, which is kept too.
+  write("plain.json", R"({"quell_sequence": 1, "frames": "0-1",
+    "source": {"type": "path_tracer", "set": {"scene": "quell:scenes/room.json", "width": 24, "height": 16}}})");
+  ASSERT_EQ(compare({"near.0001.exr", "--reference", "plain.json", "--frames", "0", "--metric", "mse", "--references",
+                     "colours", "--quiet"})
+                .exit,
+            0);
+  EXPECT_EQ(files("colours").size(), 1u);
+}
+
 TEST_F(Compare, SaysWhatDoesNotFit) {
   const auto expect = [&](std::vector<std::string> args, int exit, const std::string& text) {
     const auto r = compare(args);
