@@ -122,9 +122,12 @@ std::string results_json(const Results& r) {
 
 std::string results_csv(const Results& r) {
   std::string text = "variant,sequence,seed,frame,metric,value\n";
-  // Names hold commas where a sweep crosses two parameters.
+  // Names hold commas where a sweep crosses two parameters, and anything where they are those of files (RFC 4180).
   const auto quoted = [](const std::string& name) {
-    return name.find(',') == name.npos ? name : fmt::format("\"{}\"", name);
+    if (name.find_first_of(",\"\r\n") == name.npos) return name;
+    std::string text = "\"";
+    for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return text + "\"";
   };
   each_row(r, [&](const auto& variant, const auto& sequence, const auto& seed, auto frame, const auto& metric,
                   const auto& number) {

@@ -118,6 +118,13 @@ TEST_F(Compare, MapsAreWrittenForProgramsAndForTheEye) {
   EXPECT_NEAR(map.channels.begin()->second[5], 0.0625f, 1e-5f);
 }
 
+TEST_F(Compare, AnyNameIsOneFieldOfTheCsv) {
+  write_color("q,\"b.exr", 24, 16, 0.5f);
+  const auto r = compare({"q,\"b.exr", "--reference", "truth.0001.exr", "--metric", "mse", "--csv", "-"});
+  ASSERT_EQ(r.exit, 0) << r.err;
+  EXPECT_NE(r.out.find("\n\"q,\"\"b.exr\",pictures,,0,mse,0"), std::string::npos) << r.out;
+}
+
 TEST_F(Compare, ASequenceServesReferenceAndMotion) {
   ASSERT_EQ(quell({"run", "unfiltered", "room", "--source", "width=64", "--source", "height=36", "--frames", "0-1",
                    "-o", "out/color.####.exr", "--quiet"})
