@@ -79,8 +79,11 @@ int compare(CompareArguments& a) {
   if (!a.csv.empty() && a.csv != "-") check_writable(a.csv);
 
   Commander commander(a.plugins);
-  ProgressPrinter progress(a.progress.style());
-  const auto results = run_comparison(commander, a.request, [&](const Progress& p) { progress(p); });
+  std::optional<Results> results;
+  {
+    ProgressPrinter progress(a.progress.style());  // its line ends before what follows begins
+    results = run_comparison(commander, a.request, [&](const Progress& p) { progress(p); });
+  }
   if (const int code = commander.report(); code || !results) return code ? code : int(Exit::input);
   if (!a.json.empty()) write_text(a.json, results_json(*results));
   if (!a.csv.empty()) write_text(a.csv, results_csv(*results));

@@ -1,5 +1,5 @@
 // quell compare: numbers, tables, thresholds and what is said of what does not fit.
-#include "core/report/error.h"
+#include "core/report/shell.h"
 #include "tests/support/quell_command.h"
 
 #include <fmt/format.h>
@@ -123,6 +123,17 @@ TEST_F(Compare, AnyNameIsOneFieldOfTheCsv) {
   const auto r = compare({"q,\"b.exr", "--reference", "truth.0001.exr", "--metric", "mse", "--csv", "-"});
   ASSERT_EQ(r.exit, 0) << r.err;
   EXPECT_NE(r.out.find("\n\"q,\"\"b.exr\",pictures,,0,mse,0"), std::string::npos) << r.out;
+}
+
+TEST_F(Compare, TheTableBeginsBehindTheProgress) {
+  const auto r = run_program({"/usr/bin/script", "-qec",
+                              shell_text(command({"compare", path("near.####.exr"), "--reference",
+                                                  path("truth.####.exr"), "--metric", "mse"})),
+                              path("typescript")});
+  ASSERT_EQ(r.exit, 0) << r.out << r.err;
+  EXPECT_NE(r.out.find("(3/3)"), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find("left\033[K\r\n"), std::string::npos) << r.out;
+  EXPECT_FALSE(r.out.ends_with("\n\r\n")) << r.out;
 }
 
 TEST_F(Compare, ASequenceServesReferenceAndMotion) {
