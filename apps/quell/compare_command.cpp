@@ -75,8 +75,12 @@ int compare(CompareArguments& a) {
   a.request.metrics = split_names(a.metrics);
   a.request.thresholds = thresholds;
   a.request.cancel = &cancel;
-  if (!a.json.empty() && a.json != "-") check_writable(a.json);
-  if (!a.csv.empty() && a.csv != "-") check_writable(a.csv);
+  if (!a.json.empty() && !a.csv.empty() && plain_path(a.json) == plain_path(a.csv))
+    throw Error(Exit::usage,
+                fmt::format("--json and --csv would both go to {}", a.json == "-" ? "the standard output" : a.json));
+  for (const auto& file : {a.json, a.csv})
+    if (!file.empty() && file != "-") check_writable(file), a.request.written.push_back(file);
+  a.request.warn = [](const std::string& text) { fmt::print(stderr, "warning: {}\n", text); };
 
   Commander commander(a.plugins);
   std::optional<Results> results;
@@ -103,10 +107,12 @@ void add_compare(CLI::App& app, int& exit) {
       ->type_name("[NAME=]PICTURES…");
   sub->add_option("--reference", a->request.reference,
                   "What they are judged by: pictures too, or a sequence, whose reference is meant.")
+      ->check(not_empty())
       ->type_name("PICTURES");
   sub->add_option("--sequence", a->request.sequence,
                   "What metrics over time and of regions read besides: motion, ids, normals. Default: the reference, "
                   "where that is a sequence.")
+      ->check(not_empty())
       ->type_name("SEQUENCE");
   repeatable(
       sub->add_option("--metric", a->metrics,
@@ -119,18 +125,25 @@ void add_compare(CLI::App& app, int& exit) {
                  "mean is meant, or median, p95, min, max. May be given more than once."))
       ->type_name("CONDITION");
   sub->add_option("--frames", a->request.frames, "Frames to compare: 1-20, 1-10x2, 1,5,7-9. Default: all.")
+      ->check(not_empty())
       ->type_name("RANGE");
-  sub->add_option("--root", a->request.root, "Folder that sequence files' names are relative to.")->type_name("DIR");
+  sub->add_option("--root", a->request.root, "Folder that sequence files' names are relative to.")
+      ->check(not_empty())
+      ->type_name("DIR");
   sub->add_option("--references", a->request.references,
                   "Folder where references are kept that a source node makes, so that they are made once; studies and "
                   "suites may share it.")
+      ->check(not_empty())
       ->type_name("DIR");
   sub->add_option("--warm-up", a->request.warm_up, "Frames at the beginning that enter no mean.")
       ->check(CLI::Range(0, 1 << 30))
       ->capture_default_str();
-  sub->add_option("--json", a->json, "Writes all numbers as JSON; - is stdout.")->type_name("FILE");
-  sub->add_option("--csv", a->csv, "Writes a line for each number; - is stdout.")->type_name("FILE");
+  sub->add_option("--json", a->json, "Writes all numbers as JSON; - is stdout.")->check(not_empty())->type_name("FILE");
+  sub->add_option("--csv", a->csv, "Writes a line for each number; - is stdout.")
+      ->check(not_empty())
+      ->type_name("FILE");
   sub->add_option("--maps", a->request.maps, "Writes error images there, as EXR and for the eye as PNG.")
+      ->check(not_empty())
       ->type_name("DIR");
   sub->add_option("--threads", a->request.threads, "Threads; 0: every core that affinity and quotas grant.")
       ->check(CLI::Range(0, 1024))

@@ -1,6 +1,8 @@
 // Joins pictures, reference and metrics into one graph, runs it and collects the numbers.
 #include "apps/quell/comparison.h"
 
+#include "apps/quell/error_maps.h"
+#include "apps/quell/judges.h"
 #include "apps/quell/options.h"
 #include "apps/quell/previews.h"
 
@@ -10,68 +12,62 @@
 #include "core/lab/merge.h"
 #include "core/lab/metric.h"
 #include "core/report/shell.h"
-#include "core/report/suggest.h"
 #include "core/run/provenance.h"
-#include "core/sequence/frame_pattern.h"
-#include "core/sequence/image_writer.h"
 
 #include <quell/types.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <filesystem>
 #include <set>
 
 namespace quell {
 
+namespace fs = std::filesystem;
+
 namespace {
 
 constexpr const char* kPicture = "picture_";  // and its number: the role of a picture
-constexpr const char* kUsual[] = {"psnr_unbiased", "relmse", "psnr_pu", "ssim", "flip", "flicker"};
-
-// A metric, and frames before the current one whose references it needs; -1: it needs none.
-struct Judge {
-  Metric metric;
-  int back;
-
-  explicit Judge(Metric m) : metric(std::move(m)), back(reference_frames_back(metric.graph)) {}
-};
 
 // Where an output of the merged graph belongs.
 struct Place {
   enum class Kind { value, pixels, map };
   std::size_t picture, metric;
   Kind kind;
-};
-
-// An error image: the graph that makes it and nothing else, and what the current frame's says of how it was made.
-struct Map {
-  std::size_t picture, metric;
-  Graph graph;
-  std::optional<Provenance> provenance = {};
-  Texts texts = {};
+  std::size_t map = 0;  // among the maps
 };
 
 class Comparison {
  public:
-  Comparison(Commander& commander, const ComparisonRequest& request) : commander_(commander), request_(request) {}
+  Comparison(Commander& commander, const ComparisonRequest& request)
+      : commander_(commander),
+        request_(request),
+        metrics_(wanted_metrics(request.metrics, request.thresholds)),
+        maps_(request.maps, request.pictures) {}
 
   std::optional<Results> run(const std::function<void(const Progress&)>& progress) {
     check_names();
-    if (!open() || !load_metrics()) return std::nullopt;
+    if (!open()) return std::nullopt;
+    judges_ = load_judges(commander_, metrics_, source_->roles());
+    if (!commander_.diagnostics().ok()) return std::nullopt;
     build();
+    check_written();
     RunOptions options;
     options.threads = request_.threads;
     options.cancel = request_.cancel;
     options.progress = progress;
     const FileLog log(*source_);
-    for (auto& map : maps_)
-      map.provenance.emplace(map.graph, *source_, log,
-                             Provenance::Run{command_line(), simd_in_use(), "error", {}, graphs()});
+    maps_.begin(*source_, log, {command_line(), simd_in_use(), "error", {}, graphs()});
     Sink sink(*this);
     describe();
-    run_graph(graph_, *source_, sink, options);
+    try {
+      run_graph(graph_, *source_, sink, options);
+    } catch (const Error& e) {
+      if (at_ == 0)
+        for (const auto& picture : request_.pictures) explain(e, picture.name + "/", judges_);
+      throw;
+    }
     return std::move(results_);
   }
 
@@ -79,9 +75,7 @@ class Comparison {
   class Sink : public FrameSink {
    public:
     explicit Sink(Comparison& all) : all_(all) {}
-    void history_begins(std::int64_t frame) override {
-      for (auto& map : all_.maps_) map.provenance->history_begins(frame);
-    }
+    void history_begins(std::int64_t frame) override { all_.maps_.history_begins(frame); }
     void write(std::int64_t frame, std::span<const quell_image> outputs) override { all_.collect(frame, outputs); }
 
    private:
@@ -98,7 +92,8 @@ class Comparison {
   }
 
   bool open() {
-    const OpenPictures how{request_.frames, request_.root, request_.references, request_.threads, request_.cancel};
+    const OpenPictures how{request_.frames,  request_.root,   request_.references,
+                           request_.threads, request_.cancel, read_};
     std::vector<JoinedSource::Part> parts;
     for (std::size_t i = 0; i < request_.pictures.size(); ++i) {
       const auto& p = request_.pictures[i];
@@ -107,11 +102,19 @@ class Comparison {
     if (!request_.reference.empty()) open_reference(commander_, request_.reference, "the reference", how, parts);
     auto features = request_.sequence;
     if (features.empty() && is_sequence(request_.reference)) features = request_.reference;
-    if (!features.empty()) open_features(commander_, features, "the sequence", wanted_roles(), how, parts);
+    if (!features.empty())
+      open_features(commander_, features, "the sequence", roles_of(commander_, metrics_), how, parts);
     if (!commander_.diagnostics().ok()) return false;
+    std::vector<std::string> still;
+    for (std::size_t i = 0; i < request_.pictures.size(); ++i)
+      if (parts[i].still) still.push_back(request_.pictures[i].text);
     auto joined = std::make_unique<JoinedSource>(std::move(parts));
     joined_ = joined.get();
     source_ = with_mean_of_halves(std::move(joined));
+    if (const auto frames = source_->frames().size(); frames > 1)
+      for (const auto& picture : still)
+        request_.warn(
+            fmt::format("'{}' is one file and stands for all {} frames; --frames picks one", picture, frames));
     check_sizes();
     // What was replaced on the way in would be judged as if it had been there.
     std::vector<std::string> judged;
@@ -119,6 +122,17 @@ class Comparison {
       if (type == QUELL_RADIANCE) judged.push_back(role);
     source_->refuse_non_finite(judged);
     return true;
+  }
+
+  // Before anything is made that takes time.
+  void check_written() const {
+    for (const auto& file : request_.written)
+      if (read_.contains(plain_path(file)))
+        throw Error(Exit::usage, fmt::format("{} is read, and results would be written over it", file));
+    for (const auto frame : source_->frames())
+      for (const auto& file : maps_.files(frame))
+        if (read_.contains(file))
+          throw Error(Exit::usage, fmt::format("{} is read, and an error map would be written over it", file));
   }
 
   // A graph would say so too, but of its nodes.
@@ -143,67 +157,7 @@ class Comparison {
 
   static std::string role_of(std::size_t picture) { return fmt::format("{}{}", kPicture, picture); }
 
-  // All that the metrics could read of a sequence.
-  std::set<std::string> wanted_roles() {
-    std::set<std::string> roles;
-    for (const auto& name : metric_names()) {
-      Diagnostics quiet;
-      if (const auto metric = load_metric(name, graphs(), commander_.registry(), quiet))
-        for (const auto& input : metric->graph.inputs)
-          if (input.name != kJudged) roles.insert(input.name);
-    }
-    return roles;
-  }
-
-  // ---- What judges ----
-
-  const std::filesystem::path& graphs() const { return commander_.locations().graphs; }
-
-  std::vector<std::string> metric_names() const {
-    auto names = request_.metrics;
-    if (names.empty()) names.assign(std::begin(kUsual), std::end(kUsual));
-    for (const auto& t : request_.thresholds)
-      if (std::ranges::find(names, t.metric) == names.end()) names.push_back(t.metric);
-    return names;
-  }
-
-  bool load_metrics() {
-    auto roles = source_->roles();
-    roles.emplace(kJudged, QUELL_RADIANCE);
-    const bool usual = request_.metrics.empty();
-    for (const auto& name : metric_names()) {
-      Diagnostics quiet;
-      const auto any = load_metric(name, graphs(), commander_.registry(), quiet);
-      const bool served = !any || std::ranges::all_of(any->graph.inputs, [&](const GraphInput& i) {
-        return i.optional || roles.contains(i.name);
-      });
-      const bool asked = !usual || std::ranges::find(kUsual, name) == std::end(kUsual) ||
-                         std::ranges::find(request_.thresholds, name, &Threshold::metric) != request_.thresholds.end();
-      if (!served && !asked) continue;
-      if (!served) {
-        explain(*any, roles);
-        continue;
-      }
-      if (auto metric = load_metric(name, graphs(), commander_.registry(), commander_.diagnostics(), roles))
-        judges_.emplace_back(std::move(*metric));
-    }
-    if (judges_.empty() && commander_.diagnostics().ok())
-      throw Error(Exit::usage, "there is nothing to judge by: --reference or --sequence is missing");
-    return commander_.diagnostics().ok();
-  }
-
-  void explain(const Metric& metric, const std::map<std::string, int>& roles) {
-    for (const auto& input : metric.graph.inputs) {
-      if (input.optional || roles.contains(input.name)) continue;
-      std::string why = "--sequence names what has it";
-      if (is_reference(input.name))
-        why = input.name == "reference"
-                  ? "--reference names it"
-                  : R"(it is one of two halves, as a sequence has with "reference": {"A": …, "B": …})";
-      commander_.diagnostics().error(
-          {}, "", fmt::format("the metric '{}' reads '{}', which is not there", metric.name, input.name), {why});
-    }
-  }
+  const fs::path& graphs() const { return commander_.locations().graphs; }
 
   // ---- The graph ----
 
@@ -214,7 +168,7 @@ class Comparison {
       graph.inputs = {{role_of(i), QUELL_RADIANCE, false}};
       graph.outputs = {{"color", {{Source::kInput, 0}, 0, {}}, QUELL_RADIANCE, false}};
       std::vector<std::string> wanted = {"value", "pixels"};
-      if (!request_.maps.empty()) wanted.push_back("map");
+      if (maps_.wanted()) wanted.push_back("map");
       for (const auto& judge : judges_) attach_metric(graph, 0, judge.metric, judge.metric.name, wanted);
       graph.outputs.erase(graph.outputs.begin());
     }
@@ -228,15 +182,14 @@ class Comparison {
         const auto judge = std::ranges::find_if(
             judges_, [&](const Judge& j) { return j.metric.name == std::string_view(output.name).substr(0, dot); });
         const auto kind = output.name.substr(dot + 1);
-        places_.push_back({i, std::size_t(judge - judges_.begin()),
-                           kind == "value"    ? Place::Kind::value
-                           : kind == "pixels" ? Place::Kind::pixels
-                                              : Place::Kind::map});
-        if (kind == "map") maps_.push_back({i, places_.back().metric, narrowed(graphs_[i], o, "map")});
+        auto& place = places_.emplace_back(Place{i, std::size_t(judge - judges_.begin()), Place::Kind::value});
+        if (kind == "pixels") place.kind = Place::Kind::pixels;
+        if (kind == "map")
+          place.kind = Place::Kind::map, place.map = maps_.add(i, judge->metric.name, narrowed(graphs_[i], o, "map"));
         // As a graph file can say it.
         output.name[dot] = '_', output.tap = false;
       }
-    if (!request_.maps.empty()) add_previews(graph_, {.wanted = true, .graph = {}, .set = {}}, commander_);
+    if (maps_.wanted()) add_previews(graph_, {.wanted = true, .graph = {}, .set = {}}, commander_);
   }
 
   // ---- What is found ----
@@ -273,7 +226,7 @@ class Comparison {
 
   void collect(std::int64_t frame, std::span<const quell_image> outputs) {
     in_a_row_ = has_reference(frame) ? in_a_row_ + 1 : 0;
-    for (auto& map : maps_) map.texts = map.provenance->texts(frame);
+    maps_.begin_frame(frame);
     for (std::size_t i = 0; i < outputs.size(); ++i) {
       const auto& output = graph_.outputs[i];
       const Place place = places_[output.shows < 0 ? i : std::size_t(output.shows)];
@@ -282,7 +235,7 @@ class Comparison {
       auto& number = results_.numbers[0][0][place.picture][at_][place.metric];
       const float found = outputs[i].plane[0][0];
       if (place.kind == Place::Kind::map)
-        write_map(place, frame, outputs[i], output);
+        maps_.write(place.map, frame, outputs[i], output);
       else if (place.kind == Place::Kind::value)
         number = found;
       else if (found == 0)
@@ -294,31 +247,16 @@ class Comparison {
     ++at_;
   }
 
-  void write_map(const Place& place, std::int64_t frame, const quell_image& image, const GraphOutput& output) const {
-    std::string name = request_.pictures[place.picture].name;
-    std::ranges::replace_if(
-        name, [](char c) { return c == '/' || c == '#' || c == '@' || c == '%'; }, '_');
-    const std::string file = fmt::format("{}/{}.{}.####.{}", request_.maps, name, judges_[place.metric].metric.name,
-                                         output.shows < 0 ? "exr" : "png");
-    WriteOptions options;
-    const auto& map = *std::ranges::find_if(
-        maps_, [&](const Map& m) { return m.picture == place.picture && m.metric == place.metric; });
-    options.metadata = map.texts;
-    GraphOutput written = map.graph.outputs[0];
-    written.type = output.type;
-    if (output.shows >= 0) written.shows = 0;
-    options.metadata["quell:output"] = output_text(map.graph, written, options);
-    write_image(FramePattern(file).path(frame), image, output.type, options);
-  }
-
   Commander& commander_;
   const ComparisonRequest& request_;
+  std::vector<WantedMetric> metrics_;
   JoinedSource* joined_ = nullptr;
   std::unique_ptr<FrameSource> source_;
+  std::set<std::string> read_;  // plain paths of files
   std::vector<Judge> judges_;
   std::vector<Graph> graphs_;  // by picture
   Graph graph_;                // merged of them
-  std::vector<Map> maps_;
+  ErrorMaps maps_;
   std::vector<Place> places_;  // of the outputs that are no previews
   Results results_;
   std::vector<std::optional<double>*> empty_;

@@ -21,7 +21,9 @@ struct ComparisonRequest {
   std::vector<std::string> metrics;   // empty: the usual ones that can be had
   std::vector<Threshold> thresholds;  // whose metrics are wanted as well
   std::string frames, root, maps;
-  std::string references;  // folder where references are kept that a source node makes; "": none are
+  std::string references;            // folder where references are kept that a source node makes; "": none are
+  std::vector<std::string> written;  // files that will be written of the results, which must not be among those read
+  std::function<void(const std::string&)> warn;
   int warm_up = 0, threads = 0;
   const std::atomic<bool>* cancel = nullptr;
 };

@@ -35,6 +35,13 @@ SequenceOptions sequence_options(const std::string& text, const OpenPictures& op
   return options;
 }
 
+void note_files(const Sequence& sequence, const OpenPictures& open) {
+  open.read.insert(plain_path(sequence.path));
+  for (const auto* list : {&sequence.inputs, &sequence.references})
+    for (const auto& input : *list)
+      for (const auto frame : sequence.frames) open.read.insert(plain_path(input.file.path(frame)));
+}
+
 // Adds the part that gives these roles of a sequence, each under the name that it goes by here; nullptr when it cannot.
 JoinedSource::Part* add_part(Commander& commander, const Sequence& sequence, const SequenceOptions& options,
                              const std::string& label, const std::map<std::string, std::string>& roles,
@@ -43,6 +50,7 @@ JoinedSource::Part* add_part(Commander& commander, const Sequence& sequence, con
   for (const auto& [here, there] : roles) theirs.push_back(there);
   auto source = commander.open(sequence, options, theirs, open.threads, open.cancel);
   if (!source || !commander.diagnostics().ok()) return nullptr;
+  note_files(sequence, open);
   return &parts.emplace_back(JoinedSource::Part{label, std::move(source), roles, false, {}});
 }
 
@@ -54,6 +62,8 @@ void add_plain(Commander& commander, const std::string& text, const std::string&
 }
 
 }  // namespace
+
+std::string plain_path(const std::string& path) { return std::filesystem::absolute(path).lexically_normal().string(); }
 
 Pictures parse_pictures(const std::string& text) {
   const auto equals = text.find('=');
@@ -72,7 +82,16 @@ bool is_sequence(const std::string& text) {
 
 void open_pictures(Commander& commander, const std::string& text, const std::string& label, const std::string& role,
                    const OpenPictures& open, std::vector<JoinedSource::Part>& parts) {
-  if (!is_sequence(text)) return add_plain(commander, text, label, role, open, parts);
+  if (!is_sequence(text)) {
+    try {
+      return add_plain(commander, text, label, role, open, parts);
+    } catch (const Error& e) {
+      const auto equals = text.find('=');
+      if (equals == std::string::npos || is_name(text.substr(0, equals))) throw;
+      throw Error(e.exit(), fmt::format("{}\n  nor is '{}' a NAME for pictures: names have letters, digits and _-+.",
+                                        e.what(), text.substr(0, equals)));
+    }
+  }
   const auto options = sequence_options(text, open);
   if (const auto sequence = commander.load(options))
     add_part(commander, *sequence, options, label, {{role, "color"}}, open, parts);
@@ -94,7 +113,7 @@ void open_reference(Commander& commander, const std::string& text, const std::st
     auto source = std::make_unique<NodeSource>(*node, sequence->frames, sequence->cuts, open.threads, open.cancel);
     parts.push_back({label, keep_reference(std::move(source), *node, open.references), {{half.role, "color"}}});
   }
-  if (!made.empty()) return;
+  if (!made.empty()) return note_files(*sequence, open);
   std::map<std::string, std::string> roles;
   for (const auto& reference : sequence->references) roles[reference.role] = reference.role;
   if (!own) roles["reference"] = "color";

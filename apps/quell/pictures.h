@@ -26,7 +26,11 @@ struct OpenPictures {
   const std::string& references;
   int threads;
   const std::atomic<bool>* cancel;
+  std::set<std::string>& read;  // gets the plain paths of all files that are read
 };
+
+// Absolute and without detours, so that two names of one file are one.
+std::string plain_path(const std::string& path);
 
 // The colour of the pictures, as role `role`. Like those below it adds nothing when there are mistakes, which are with
 // the diagnostics then, and throws Error(Exit::input) for files that are not there.

@@ -118,6 +118,51 @@ TEST_F(Compare, MapsAreWrittenForProgramsAndForTheEye) {
   EXPECT_NEAR(map.channels.begin()->second[5], 0.0625f, 1e-5f);
 }
 
+TEST_F(Compare, MapsAreCalledByTheirPictures) {
+  const std::vector<std::string> args = {"--reference", "truth.0001.exr", "--metric", "mse", "--maps", "maps", "-q"};
+  for (const auto& name : {"a/c.0002.exr", "a/c.0003.exr", "a_c.exr"}) write_color(name, 24, 16, 0.25f);
+  auto r = compare(std::vector<std::string>{"./a/c.####.exr", "x=a/c.####.exr", "a/c.0003.exr"} + args);
+  ASSERT_EQ(r.exit, 0) << r.err;
+  EXPECT_EQ(files("maps"),
+            (std::vector<std::string>{"a_c.0003.mse.0002.exr", "a_c.0003.mse.0002.png", "a_c.0003.mse.0003.exr",
+                                      "a_c.0003.mse.0003.png", "a_c.mse.0002.exr", "a_c.mse.0002.png",
+                                      "a_c.mse.0003.exr", "a_c.mse.0003.png", "x.mse.0002.exr", "x.mse.0002.png",
+                                      "x.mse.0003.exr", "x.mse.0003.png"}));
+  r = compare(std::vector<std::string>{"a/c.%04d.exr", "a_c.exr"} + args);
+  EXPECT_EQ(r.exit, 2);
+  EXPECT_NE(r.err.find("the maps of 'a/c.%04d.exr' and of 'a_c.exr' would both be called 'a_c'; NAME=… names"),
+            std::string::npos)
+      << r.err;
+}
+
+TEST_F(Compare, OneFileForAllFramesIsWarnedOf) {
+  auto r = compare({"near.0002.exr", "--reference", "truth.####.exr", "--metric", "mse"});
+  ASSERT_EQ(r.exit, 0) << r.err;
+  EXPECT_EQ(r.err, "warning: 'near.0002.exr' is one file and stands for all 3 frames; --frames picks one\n");
+  r = compare({"near.0002.exr", "--reference", "truth.####.exr", "--metric", "mse", "--frames", "2"});
+  EXPECT_EQ(r.exit, 0);
+  EXPECT_EQ(r.err, "");
+}
+
+TEST_F(Compare, NothingThatIsReadIsWrittenOver) {
+  const std::vector<std::string> args = {"near.####.exr", "--reference", "truth.####.exr", "--metric", "mse"};
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& says) {
+    const auto r = compare(args + more);
+    EXPECT_EQ(r.exit, 2) << r.err;
+    EXPECT_NE(r.err.find(says), std::string::npos) << r.err;
+  };
+  const auto before = read("near.0002.exr");
+  refused({"--csv", "./near.0002.exr"}, "./near.0002.exr is read");
+  refused({"--json", "truth.0003.exr"}, "truth.0003.exr is read");
+  refused({"--json", "-", "--csv", "-"}, "--json and --csv would both go to the standard output");
+  refused({"--json", "n", "--csv", "./n"}, "--json and --csv would both go to n");
+  write_color("maps/n.mse.0001.exr", 24, 16, 1);
+  refused({"n=maps/n.mse.####.exr", "--maps", "maps", "--frames", "1"}, "maps/n.mse.0001.exr is read");
+  for (const auto* option : {"--json", "--csv", "--maps", "--references", "--reference", "--frames"})
+    refused({option, ""}, std::string(option) + ": is empty");
+  EXPECT_EQ(read("near.0002.exr"), before);
+}
+
 TEST_F(Compare, AnyNameIsOneFieldOfTheCsv) {
   write_color("q,\"b.exr", 24, 16, 0.5f);
   const auto r = compare({"q,\"b.exr", "--reference", "truth.0001.exr", "--metric", "mse", "--csv", "-"});
@@ -206,6 +251,15 @@ TEST_F(Compare, SaysWhatDoesNotFit) {
   expect({"near.####.exr", "--reference", "truth.####.exr", "--metric", "flicker"}, 2,
          "the metric 'flicker' reads 'motion', which is not there");
   expect({"near.####.exr", "--reference", "truth.####.exr", "--fail", "mse = 3"}, 2, "--fail 'mse = 3': expected");
+  expect({"near.####.exr", "--reference", "truth.####.exr", "--metric", "mse,rmse", "--metric", "mse"}, 2,
+         "--metric: two metrics are called 'mse'");
+  expect({"near.####.exr", "--reference", "truth.####.exr", "--metric", "relmse_edges"}, 2,
+         "'relmse_edges' reads id, normal, depth where that is there; --sequence names what has it");
+  write("mine.json", R"({"quell": 1, "inputs": {"image": "radiance", "depth": "depth"},
+    "nodes": {"slope": {"type": "depth_slope", "in": {"depth": "depth"}}}, "outputs": {"value": "slope"}})");
+  expect({"near.####.exr", "--reference", "truth.####.exr", "--metric", "mine.json"}, 2, "is no metric: it lacks");
+  expect({"ü=near.0001.exr", "--reference", "truth.####.exr"}, 3,
+         "nor is 'ü' a NAME for pictures: names have letters, digits and _-+.");
   write_color("truth.0004.exr", 24, 16, 0.5f);
   expect({"truth.####.exr", "--reference", "near.####.exr", "--metric", "mse"}, 3,
          "the reference has no frame 4, which truth.####.exr has; --frames picks those that both have");
