@@ -5,15 +5,19 @@
 #include "apps/quell/progress.h"
 
 #include "core/lab/ablation.h"
+#include "core/lab/folder_lock.h"
 #include "core/lab/study_report.h"
 #include "core/lab/tables.h"
 #include "core/run/cores.h"
 #include "core/sequence/temporary_file.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <set>
 
 namespace quell {
 
@@ -45,6 +49,31 @@ void look_at_journal(const AblateArguments& a) {
   if (error) throw Error(Exit::resources, fmt::format("{}: {}", journal.string(), error.message()));
 }
 
+// Images and variants that results.json lists; none where it cannot be read.
+std::set<std::string> listed_files(const fs::path& folder) {
+  std::set<std::string> files;
+  std::ifstream in(folder / "results.json");
+  const auto results = nlohmann::json::parse(in, nullptr, false);
+  try {
+    for (const auto& image : results.at("images")) files.insert(image.at("file").get<std::string>());
+    for (const auto& v : results.at("variants"))
+      files.insert(fmt::format("variants/{}.json", v.at("name").get<std::string>()));
+  } catch (const nlohmann::json::exception&) {
+    return {};
+  }
+  return files;
+}
+
+// What earlier results listed and these do not would be taken for theirs.
+void remove_old_files(const fs::path& folder, const std::set<std::string>& before) {
+  const auto now = listed_files(folder);
+  std::error_code error;
+  for (const auto& file : before) {
+    const auto path = fs::path(file).lexically_normal();
+    if (!now.contains(file) && path.is_relative() && *path.begin() != "..") fs::remove(folder / path, error);
+  }
+}
+
 void print_saving(const Ablation& ablation) {
   if (ablation.alone <= 0) return;
   fmt::print(stderr, "{} nodes of {}, {:.0f} % of the work of separate runs\n", ablation.merged_nodes,
@@ -69,7 +98,9 @@ int run(const AblateArguments& a) {
   if (!trials || code) return code ? code : int(Exit::usage);
   if (a.check) return 0;
 
+  const FolderLock lock(folder);
   look_at_journal(a);
+  const auto before = listed_files(folder);
   check_writable((folder / "results.json").string());
   AblationOptions options;
   options.folder = folder;
@@ -94,16 +125,26 @@ int run(const AblateArguments& a) {
     throw Error(Exit::interrupted,
                 fmt::format("interrupted; quell ablate {} -o {} --resume goes on", a.study, a.output));
   }
-  std::vector<double> cost;
-  for (const auto& times : ablation.times) cost.push_back(times.own * 1e3);
+  Costs cost;
+  cost.of_sequence.resize(ablation.results.sequences.size());
+  for (const auto& times : ablation.times) {
+    cost.all.push_back(times.own * 1e3);
+    for (std::size_t s = 0; s < times.own_of.size(); ++s) cost.of_sequence[s].push_back(times.own_of[s] * 1e3);
+  }
   const auto timings = timings_json(ablation, a.threads ? a.threads : usable_cores());
   write_file((folder / "timings.json").string(), timings);
   write_file((folder / "results.csv").string(), results_csv(ablation.results));
   write_file((folder / "table.md").string(), table_markdown(ablation.results, cost));
   write_file((folder / "table.tex").string(), table_latex(ablation.results, cost));
   write_file((folder / "results.json").string(), results_json(ablation.results));
-  write_report_html((folder / "report.html").string(),
-                    study_report(*study, trials->front(), ablation.results, timings, folder));
+  remove_old_files(folder, before);
+  try {
+    write_report_html((folder / "report.html").string(),
+                      study_report(*study, trials->front(), ablation.results, timings, folder));
+  } catch (const Error& e) {
+    if (e.exit() != Exit::input) throw;
+    throw Error(e.exit(), fmt::format("{}\n  delete it, and --resume makes it again", e.what()));
+  }
   if (!a.progress.quiet) {
     print_saving(ablation);
     fmt::print(stderr, "{}\n{}\n", (folder / "table.md").string(), (folder / "report.html").string());

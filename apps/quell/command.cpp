@@ -68,6 +68,7 @@ void SequenceOptions::add_to(CLI::App& app, bool required) {
         return std::string(text.empty() ? "is empty; leave it out for all frames" : "");
       });
   app.add_option("--root", root, "Folder that the sequence's files are relative to.")->type_name("DIR");
+  offers_missing = true;
   app.add_option("--missing", missing,
                  "What to do about a frame whose files are missing: end with an error, leave it out, hold the frame "
                  "before, or take it as black.")
@@ -187,7 +188,14 @@ std::unique_ptr<FrameSource> Commander::open(const Sequence& sequence, const Seq
     if (!options.source.empty())
       throw Error(Exit::usage,
                   fmt::format("--source {}: this sequence is made of files and has no source node", options.source[0]));
-    return open_sequence(sequence, roles, missing_from_name(options.missing).value(), diagnostics_);
+    try {
+      return open_sequence(sequence, roles, missing_from_name(options.missing).value(), diagnostics_);
+    } catch (const MissingFrames& e) {
+      if (!e.others()) throw;
+      throw Error(e.exit(), fmt::format("{}\n  {}", e.what(),
+                                        options.offers_missing ? "--missing skip, hold or black goes on without"
+                                                               : "--frames picks others"));
+    }
   }
   const auto parameters = source_parameters(options.source, diagnostics_);
   auto instance = source_instance(*sequence.source, {parameters, ""}, registry_, locations_.graphs, diagnostics_);

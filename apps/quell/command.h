@@ -38,6 +38,7 @@ struct SequenceOptions {
   std::string sequence;
   std::string frames, root, missing = "error";
   std::vector<std::string> source;  // parameters of a source node
+  bool offers_missing = false;      // --missing is an option of this command
   void add_to(CLI::App&, bool required);
 };
 

@@ -5,6 +5,7 @@
 
 #include "core/graph/write.h"
 #include "core/lab/edits.h"
+#include "core/lab/folder_lock.h"
 #include "core/lab/tuner.h"
 #include "core/report/shell.h"
 #include "core/sequence/temporary_file.h"
@@ -111,6 +112,7 @@ int run(const TuneArguments& a) {
   if (const int code = commander.report(); code || !good) return code ? code : int(Exit::usage);
   if (a.check) return 0;
 
+  const FolderLock lock(folder);
   std::error_code error;
   if (fs::exists(options.journal, error) && !a.resume) {
     if (!a.restart)

@@ -36,7 +36,7 @@ class Writer {
 
   WrittenGraph write(const std::optional<MetricKey>& metric) {
     J inputs = J::object(), outputs = J::object();
-    for (const auto& in : graph_.inputs) inputs[in.name] = type_name(in.type);
+    for (const auto& in : graph_.inputs) inputs[in.name] = std::string(type_name(in.type)) + (in.optional ? "?" : "");
     for (const auto& out : graph_.outputs)
       if (!out.tap) outputs[out.name] = wire(out.wire, out.type);
     std::vector<std::string> nodes;

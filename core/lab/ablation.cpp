@@ -35,7 +35,12 @@ class StudyRun {
     for (std::size_t s = 0; s < trials_.size(); ++s) total_ += seeds() * trials_[s].sequence().frames.size();
     for (std::size_t s = 0; s < trials_.size(); ++s) {
       out_.results.numbers.emplace_back();
+      spent_.assign(study_.variants.size(), {});
       for (std::size_t seed = 0; seed < seeds(); ++seed) run_one(s, seed);
+      for (std::size_t v = 0; v < spent_.size(); ++v) {
+        out_.times[v].own_of.push_back(summarize(spent_[v]).median);
+        out_.times[v].own += out_.times[v].own_of.back() * double(spent_[v].size());
+      }
     }
     double frames = 0;
     for (const auto& trial : trials_) frames += double(seeds() * trial.sequence().frames.size());
@@ -156,7 +161,7 @@ class StudyRun {
     }
     for (const auto& variants : groups(trial, pending, *source, seed == 0)) {
       JournalPart part;
-      for (const auto v : variants) part.entries.push_back({study_.variants[v].name, keys[v], {}, 0, 0, 0});
+      for (const auto v : variants) part.entries.push_back({study_.variants[v].name, keys[v], {}, {}, 0, 0});
       run_group_of(variants, std::move(part));
     }
     collect(s, journal, keys);
@@ -175,11 +180,7 @@ class StudyRun {
   }
 
   std::unique_ptr<FrameSource> open(const Trial& trial, std::size_t seed) {
-    std::set<std::string> roles{"color"};
-    for (const auto& variant : trial.variants())
-      for (const auto& input : variant.graph.inputs) roles.insert(input.name);
-    if (!trial.roles().contains("color")) roles.erase("color");
-    auto source = trial.open({roles.begin(), roles.end()}, study_.seeds, seed, lab_);
+    auto source = trial.open(trial.all_roles(), study_.seeds, seed, lab_);
     if (!source || !lab_.diagnostics.ok()) throw Error(lab_.diagnostics.exit(), lab_.diagnostics.format());
     return source;
   }
@@ -228,8 +229,10 @@ class StudyRun {
       if (!entry || entry->numbers.size() != trials_[s].sequence().frames.size())
         throw Error(Exit::resources, fmt::format("the journal in {} lost variant '{}'", options_.folder.string(),
                                                  study_.variants[v].name));
-      out_.times[v].own += entry->own_seconds, out_.times[v].judged += entry->judged_seconds;
-      out_.alone += entry->own_seconds + entry->judged_seconds;
+      auto& spent = spent_[v];
+      spent.insert(spent.end(), entry->own_seconds.begin(), entry->own_seconds.end());
+      out_.times[v].judged += entry->judged_seconds;
+      out_.alone += std::accumulate(entry->own_seconds.begin(), entry->own_seconds.end(), entry->judged_seconds);
       out_.spent += entry->shared_seconds;
       of_seed.push_back(std::move(entry->numbers));
     }
@@ -240,7 +243,8 @@ class StudyRun {
   Laboratory& lab_;
   const AblationOptions& options_;
   Ablation out_;
-  std::size_t done_ = 0, total_ = 0;  // frames of this process
+  std::vector<std::vector<double>> spent_;  // by variant: own seconds of every frame of the current sequence
+  std::size_t done_ = 0, total_ = 0;        // frames of this process
 };
 
 }  // namespace
@@ -252,6 +256,7 @@ std::optional<std::vector<Trial>> load_trials(const Study& study, bool maps, Lab
     if (trial) trials.push_back(std::move(*trial));
   }
   if (trials.size() != study.sequences.size()) return std::nullopt;
+  for (const auto& trial : trials) trial.check_frames(lab);
   return trials;
 }
 
@@ -270,10 +275,14 @@ void write_variants(const Study& study, const Trial& trial, const Laboratory& la
 std::string timings_json(const Ablation& a, int threads) {
   nlohmann::ordered_json j = {{"quell_timings", 1}, {"simd", a.results.simd}, {"threads", threads}};
   auto& variants = j["variants"] = nlohmann::ordered_json::array();
-  for (std::size_t v = 0; v < a.times.size(); ++v)
-    variants.push_back({{"name", a.results.variants[v].name},
-                        {"cost_ms", a.times[v].own * 1e3},
-                        {"metrics_ms", a.times[v].judged * 1e3}});
+  for (std::size_t v = 0; v < a.times.size(); ++v) {
+    const auto& times = a.times[v];
+    auto& variant = variants.emplace_back();
+    variant = {{"name", a.results.variants[v].name}, {"cost_ms", times.own * 1e3}};
+    for (std::size_t s = 0; s < times.own_of.size(); ++s)
+      variant["cost_ms_of"][a.results.sequences[s].name] = times.own_of[s] * 1e3;
+    variant["metrics_ms"] = times.judged * 1e3;
+  }
   j["saving"] = {{"nodes", a.merged_nodes},
                  {"nodes_of_separate_runs", a.all_nodes},
                  {"seconds", a.spent},

@@ -26,8 +26,11 @@ struct AblationOptions {
 
 // Seconds that threads spent a frame.
 struct VariantTimes {
-  double own = 0;     // on the variant's nodes, as if it had run alone
-  double judged = 0;  // on those of its metrics
+  // On the variant's nodes, as if it had run alone: by sequence the median over frames and seeds, which bears a machine
+  // that was busy now and then; and their mean, each sequence counted by its frames.
+  std::vector<double> own_of;
+  double own = 0;
+  double judged = 0;  // on the nodes of its metrics, the mean
 };
 
 struct Ablation {

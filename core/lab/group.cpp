@@ -111,7 +111,8 @@ std::vector<ShownOutput> Group::shown() const {
 
 void Group::charge(std::span<const double> busy, std::span<JournalEntry> entries) const {
   for (std::size_t p = 0; p < variants_.size(); ++p) {
-    for (const int n : own_[p]) entries[p].own_seconds += busy[std::size_t(n)];
+    auto& own = entries[p].own_seconds.emplace_back(0);
+    for (const int n : own_[p]) own += busy[std::size_t(n)];
     for (const int n : judging_[p]) entries[p].judged_seconds += busy[std::size_t(n)];
     for (const auto* nodes : {&own_[p], &judging_[p]})
       for (const int n : *nodes) entries[p].shared_seconds += busy[std::size_t(n)] / users_[std::size_t(n)];

@@ -39,7 +39,7 @@ JournalEntry to_entry(const json& j) {
     for (const auto& number : row)
       frame.push_back(number.is_null() ? std::nullopt : std::optional(number.get<double>()));
   }
-  e.own_seconds = j.at("own_seconds").get<double>();
+  e.own_seconds = j.at("own_seconds").get<std::vector<double>>();
   e.judged_seconds = j.at("judged_seconds").get<double>();
   e.shared_seconds = j.at("shared_seconds").get<double>();
   return e;

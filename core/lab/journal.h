@@ -16,7 +16,7 @@ struct JournalEntry {
   std::string variant;
   std::string key;                    // of all that decides its numbers: an entry of another key is as good as none
   std::vector<FrameNumbers> numbers;  // of the frames so far
-  double own_seconds = 0;             // that threads spent on its nodes, all frames; as if it had run alone
+  std::vector<double> own_seconds;    // that threads spent on its nodes, by frame; as if it had run alone
   double judged_seconds = 0;          // and on those of its metrics
   double shared_seconds = 0;          // its part of what was really spent: what variants share counts in equal parts
 };

@@ -2,6 +2,7 @@
 #include "core/lab/kept_source.h"
 
 #include "core/lab/digest.h"
+#include "core/report/error.h"
 #include "core/run/named_files.h"
 #include "core/sequence/image_file.h"
 #include "core/sequence/image_writer.h"
@@ -26,6 +27,14 @@ void KeptSource::watch_files(FileWatcher watcher) {
 
 bool KeptSource::read_kept(const std::string& path, const quell_image& into) const {
   if (!std::filesystem::exists(path)) return false;
+  try {
+    return read_whole(path, into);
+  } catch (const Error&) {
+    return false;  // damaged: it is made again
+  }
+}
+
+bool KeptSource::read_whole(const std::string& path, const quell_image& into) const {
   ImageFile file(path);
   const auto names = channel_names(roles().at(role_), into.channels);
   std::vector<ChannelRead> reads;

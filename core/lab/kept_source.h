@@ -37,7 +37,9 @@ class KeptSource : public FrameSource {
   void watch_files(FileWatcher) override;
 
  private:
+  // Whether there is a kept image of this size that can be read.
   bool read_kept(const std::string& path, const quell_image& into) const;
+  bool read_whole(const std::string& path, const quell_image& into) const;
 
   std::unique_ptr<FrameSource> source_;
   std::string role_;

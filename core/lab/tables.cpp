@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace quell {
 
@@ -28,6 +29,7 @@ struct Column {
 
 struct Table {
   std::string caption;
+  std::optional<std::size_t> sequence;  // none: over all
   std::vector<Column> columns;
 };
 
@@ -53,11 +55,11 @@ Column cost_column(const std::vector<double>& cost_ms) {
   return column;
 }
 
-std::vector<Table> tables(const Results& r, const std::vector<double>& cost_ms) {
+std::vector<Table> tables(const Results& r, const Costs& costs) {
   std::vector<Table> all;
   for (const auto& s : summaries(r)) {
     if (s.variant == 0 && s.metric == 0)
-      all.push_back({s.sequence ? r.sequences[*s.sequence].name : std::string("all sequences"),
+      all.push_back({s.sequence ? r.sequences[*s.sequence].name : std::string("all sequences"), s.sequence,
                      std::vector<Column>(r.metrics.size())});
     const auto& metric = r.metrics[s.metric];
     auto& column = all.back().columns[s.metric];
@@ -67,7 +69,6 @@ std::vector<Table> tables(const Results& r, const std::vector<double>& cost_ms) 
   }
   for (auto& table : all) {
     for (auto& column : table.columns) column.decimals = decimals_of(column.cells);
-    if (!cost_ms.empty()) table.columns.push_back(cost_column(cost_ms));
     for (auto& column : table.columns) {
       const auto shown = [&](const Cell& c) {
         const double sign = column.higher ? -1 : 1, digits = std::pow(10, column.decimals);
@@ -79,6 +80,8 @@ std::vector<Table> tables(const Results& r, const std::vector<double>& cost_ms) 
         if (c.there) best = std::min(best, shown(c));
       for (auto& c : column.cells) c.best = c.there && shown(c) == best;
     }
+    if (!costs.all.empty())
+      table.columns.push_back(cost_column(table.sequence ? costs.of_sequence[*table.sequence] : costs.all));
   }
   // The table over all sequences is the one to read first.
   if (r.sequences.size() > 1) std::rotate(all.begin(), all.end() - 1, all.end());
@@ -95,7 +98,10 @@ std::string latex(const std::string& text) {
                                                        {'}', "\\}"},
                                                        {'~', "\\textasciitilde{}"},
                                                        {'^', "\\textasciicircum{}"},
-                                                       {'\\', "\\textbackslash{}"}};
+                                                       {'\\', "\\textbackslash{}"},
+                                                       {'<', "\\textless{}"},
+                                                       {'>', "\\textgreater{}"},
+                                                       {'|', "\\textbar{}"}};
   std::string out;
   for (const char c : text)
     if (const auto it = kSpecial.find(c); it != kSpecial.end())
@@ -106,9 +112,9 @@ std::string latex(const std::string& text) {
 }
 
 std::string markdown(const std::string& text) {
+  static const std::string kSpecial = "|\\*_<>`[]#";
   std::string out;
-  for (const char c : text)
-    out += c == '|' || c == '\\' || c == '*' || c == '_' ? std::string{'\\', c} : std::string(1, c);
+  for (const char c : text) out += kSpecial.find(c) == kSpecial.npos ? std::string(1, c) : std::string{'\\', c};
   return out;
 }
 
@@ -116,14 +122,14 @@ std::string number(double value, int decimals) { return fmt::format("{:.{}f}", v
 
 }  // namespace
 
-std::string table_markdown(const Results& r, const std::vector<double>& cost_ms) {
+std::string table_markdown(const Results& r, const Costs& costs) {
   std::string text = fmt::format("# {}\n\n", markdown(r.name));
-  if (!r.about.empty()) text += r.about + "\n\n";
-  text += fmt::format("{}{}\n", kHow, cost_ms.empty() ? "" : " Cost: of all threads, a frame, as if run alone.");
-  for (const auto& table : tables(r, cost_ms)) {
+  if (!r.about.empty()) text += markdown(r.about) + "\n\n";
+  text += fmt::format("{}{}\n", kHow, costs.all.empty() ? "" : " Cost: of all threads, a frame, as if run alone.");
+  for (const auto& table : tables(r, costs)) {
     text += fmt::format("\n## {}\n\n| variant |", markdown(table.caption));
     for (const auto& c : table.columns)
-      text += fmt::format(" {}{} {} |", markdown(c.title), c.unit.empty() ? "" : fmt::format(" [{}]", c.unit),
+      text += fmt::format(" {}{} {} |", markdown(c.title), c.unit.empty() ? "" : fmt::format(" [{}]", markdown(c.unit)),
                           c.higher ? "↑" : "↓");
     text += "\n|---|";
     for (std::size_t c = 0; c < table.columns.size(); ++c) text += "---:|";
@@ -143,14 +149,14 @@ std::string table_markdown(const Results& r, const std::vector<double>& cost_ms)
   return text;
 }
 
-std::string table_latex(const Results& r, const std::vector<double>& cost_ms) {
+std::string table_latex(const Results& r, const Costs& costs) {
   std::string text = fmt::format("% {}. Needs \\usepackage{{booktabs}}.\n", latex(r.name));
-  for (const auto& table : tables(r, cost_ms)) {
+  for (const auto& table : tables(r, costs)) {
     text += fmt::format(
         "\\begin{{table}}\n  \\centering\n  \\caption{{{}: {}. {}{}}}\n  \\begin{{tabular}}{{l{}}}\n    "
         "\\toprule\n    Variant",
         latex(r.name), latex(table.caption), latex(kHow),
-        cost_ms.empty() ? "" : " Cost: of all threads, a frame, as if run alone.",
+        costs.all.empty() ? "" : " Cost: of all threads, a frame, as if run alone.",
         std::string(table.columns.size(), 'r'));
     for (const auto& c : table.columns)
       text += fmt::format(" & {}{} ${}$", latex(c.title), c.unit.empty() ? "" : fmt::format(" [{}]", latex(c.unit)),

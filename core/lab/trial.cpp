@@ -6,12 +6,15 @@
 #include "core/lab/kept_source.h"
 #include "core/report/suggest.h"
 #include "core/run/node_source.h"
+#include "core/run/plan.h"
 #include "core/run/source_node.h"
+#include "core/sequence/file_sequence.h"
 #include "core/sequence/frame_range.h"
 
 #include <quell/types.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -204,6 +207,16 @@ bool Trial::load_metrics(Laboratory& lab) {
             std::move(notes));
       }
       if (!served) continue;
+      if (reference_frames_.empty() && reference_frames_back(any->graph) >= 0) {
+        const auto& files = sequence_.references;
+        scoped.inner.error(
+            m.position, m.where,
+            fmt::format("'{}' judges by a reference, and no frame of '{}' has all its files", m.name, declared_->name),
+            {fmt::format("frames are {}; of the first it would be {}", frame_range_text(sequence_.frames),
+                         files.front().file.path(sequence_.frames.front()))},
+            Exit::input);
+        continue;
+      }
     }
     auto metric = load_metric(m.name, lab.graphs, lab.registry, scoped.inner, roles);
     if (!metric) continue;
@@ -283,6 +296,46 @@ Instance Trial::with_seed(const std::optional<StudySeeds>& seeds, std::size_t se
   return node;
 }
 
+std::vector<std::string> Trial::all_roles() const {
+  std::set<std::string> roles;
+  if (roles_.contains("color")) roles.insert("color");
+  for (const auto& variant : variants_)
+    for (const auto& input : variant.graph.inputs) roles.insert(input.name);
+  return {roles.begin(), roles.end()};
+}
+
+void Trial::check_frames(Laboratory& lab) const {
+  const auto source = open(all_roles(), study_->seeds, 0, lab);
+  if (!source || !lab.diagnostics.ok()) return;
+  // A frame that all is there of.
+  const auto frame = reference_frames_.empty() ? source->frames().front() : *reference_frames_.begin();
+  for (const auto& variant : variants_) {
+    std::vector<std::string> roles;
+    for (const auto& input : variant.graph.inputs) roles.push_back(input.name);
+    const auto shapes = source->shapes(frame, roles);
+    try {
+      const Plan plan(variant.graph, shapes, {false, false});
+    } catch (const Error& e) {
+      std::vector<std::string> sizes;
+      for (std::size_t i = 0; i < roles.size(); ++i)
+        if (roles[i] == "color" || is_reference(roles[i]))
+          sizes.push_back(fmt::format("{} is {}x{}", roles[i], shapes[i].width, shapes[i].height));
+      throw Error(Exit::input,
+                  fmt::format("the images of the sequence '{}' do not fit each other: in frame {} {}\n  {}",
+                              declared_->name, frame, fmt::join(sizes, ", "), e.what()));
+    }
+  }
+}
+
+std::unique_ptr<FileSequence> Trial::open_files(const std::vector<std::string>& roles, Laboratory& lab) const {
+  try {
+    return open_sequence(sequence_, roles, Missing::error, lab.diagnostics);
+  } catch (const MissingFrames& e) {
+    throw Error(e.exit(), fmt::format("{}\n  of the sequence '{}'{}", e.what(), declared_->name,
+                                      e.others() ? "; \"frames\" beside its \"path\" picks others" : ""));
+  }
+}
+
 std::unique_ptr<FrameSource> Trial::open(const std::vector<std::string>& roles, const std::optional<StudySeeds>& seeds,
                                          std::size_t seed, Laboratory& lab) const {
   const auto made = [&](const Instance& node) {
@@ -296,7 +349,7 @@ std::unique_ptr<FrameSource> Trial::open(const std::vector<std::string>& roles, 
   std::vector<std::string> own;
   std::ranges::copy_if(roles, std::back_inserter(own), [](const auto& role) { return !is_reference(role); });
   auto input = source_ ? made(with_seed(seeds, seed)) : nullptr;
-  auto files = source_ ? nullptr : open_sequence(sequence_, own, Missing::error, lab.diagnostics);
+  auto files = source_ ? nullptr : open_files(own, lab);
   if (!input && !files) return nullptr;
   auto& first = source_ ? add("the frames", std::move(input)) : add("the frames", std::move(files));
   for (const auto& role : own) first.roles[role] = role;
@@ -305,7 +358,7 @@ std::unique_ptr<FrameSource> Trial::open(const std::vector<std::string>& roles, 
   if (!sequence_.references.empty() && !reference_frames_.empty()) {
     std::vector<std::string> halves;
     for (const auto& half : sequence_.references) halves.push_back(half.role);
-    auto references = open_sequence(sequence_, halves, Missing::error, lab.diagnostics);
+    auto references = open_files(halves, lab);
     if (!references) return nullptr;
     auto& part = add("the reference", std::move(references));
     for (const auto& half : halves) part.roles[half] = half;

@@ -47,6 +47,9 @@ class Trial {
   // What is wrong goes to the diagnostics, and nothing is returned then. `maps`: metrics give their maps too.
   static std::optional<Trial> load(const Study&, const StudySequence&, bool maps, Laboratory&);
 
+  // Looks for all files of its frames, and for sizes that do not fit. Throws Error.
+  void check_frames(Laboratory&) const;
+
   const StudySequence& declared() const { return *declared_; }
   const Sequence& sequence() const { return sequence_; }
   const std::vector<Metric>& metrics() const { return metrics_; }
@@ -57,6 +60,8 @@ class Trial {
   // Whether all references are there that the metric's number of this frame is made from.
   bool judges(std::size_t metric, std::int64_t frame) const;
 
+  // All that the variants with their metrics read, and colour.
+  std::vector<std::string> all_roles() const;
   // The frames for what these roles name; `seed` in place of the sequence's own. Throws Error, or leaves what is wrong
   // with the diagnostics and gives nothing.
   std::unique_ptr<FrameSource> open(const std::vector<std::string>& roles, const std::optional<StudySeeds>& seeds,
@@ -74,6 +79,7 @@ class Trial {
   bool load_variants(bool maps, Laboratory&);
   bool judges_some_frame(Laboratory&) const;
   std::optional<JudgedGraph> judged(const StudyVariant&, bool maps, Laboratory&) const;
+  std::unique_ptr<FileSequence> open_files(const std::vector<std::string>& roles, Laboratory&) const;
   Instance with_seed(const std::optional<StudySeeds>& seeds, std::size_t seed) const;
 
   const Study* study_;

@@ -168,8 +168,7 @@ class FileSequence::Impl {
                                      table ? "has no such frame" : "there is no such file");
       if (missing_frames_.size() > 1)
         text += fmt::format("\n  frames without all their files: {}", frame_range_text(missing_frames_));
-      if (missing_frames_.size() < sequence_.frames.size()) text += "\n  --missing skip, hold or black goes on without";
-      throw Error(Exit::input, text);
+      throw MissingFrames(text, missing_frames_.size() < sequence_.frames.size());
     }
     frames_ = sequence_.frames;
     if (missing_ == Missing::skip) std::erase_if(frames_, [&](std::int64_t f) { return incomplete.contains(f); });

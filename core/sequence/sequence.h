@@ -4,6 +4,7 @@
 
 #include "core/json/json.h"
 #include "core/report/diagnostics.h"
+#include "core/report/error.h"
 #include "core/sequence/conversion.h"
 #include "core/sequence/file_sequence.h"
 #include "core/sequence/frame_pattern.h"
@@ -85,10 +86,21 @@ struct SequenceRequest {
 // throw Error(Exit::input).
 std::optional<Sequence> load_sequence(const SequenceRequest&, Diagnostics&);
 
+// Files of some frames are missing.
+class MissingFrames : public Error {
+ public:
+  // `others`: there are frames that have all of theirs.
+  MissingFrames(const std::string& text, bool others) : Error(Exit::input, text), others_(others) {}
+  bool others() const { return others_; }
+
+ private:
+  bool others_;
+};
+
 // Opens a sequence of files for the roles that a graph reads (empty: all inputs): finds their channels in the first
 // frame and looks for every frame's files. The diagnostics must be those of load_sequence, for places point into its
 // texts. Channels that are not there go to the diagnostics, and nothing is returned then; a missing frame throws
-// Error(Exit::input) that names it and its file, unless `missing` says what to do instead.
+// MissingFrames that names it and its file, unless `missing` says what to do instead.
 std::unique_ptr<FileSequence> open_sequence(const Sequence&, std::span<const std::string> roles, Missing missing,
                                             Diagnostics&);
 

@@ -170,7 +170,10 @@ json results_json() {
 
 json timings_json() {
   json t = {{"quell_timings", 1}, {"variants", json::array()}};
-  for (const auto& v : kVariants) t["variants"].push_back({{"name", v.name}, {"cost_ms", v.cost}});
+  for (const auto& v : kVariants) {
+    auto& variant = t["variants"].emplace_back(json{{"name", v.name}, {"cost_ms", v.cost}});
+    for (const auto& s : kSequences) variant["cost_ms_of"][s.name] = v.cost;
+  }
   return t;
 }
 

@@ -49,7 +49,7 @@ export function pareto_section(results, shown) {
     const box = { left: 58, top: 26, right: width - 14, bottom: height - 44 };
     points = [];
     for (const name of shown.visible()) {
-      const cost = results.cost_of(name);
+      const cost = results.cost_of(name, pick_sequence.select.value);
       const error = results.summary_of(name, pick_sequence.select.value, metric.name)?.mean ?? null;
       if (cost !== null && error !== null) points.push({ name, cost, error });
     }

@@ -15,7 +15,7 @@ export function read_results() {
     if (!rows.has(at)) rows.set(at, []);
     if (r.value !== null) rows.get(at).push(r.value);
   }
-  for (const v of timings?.variants ?? []) costs.set(v.name, v.cost_ms ?? null);
+  for (const v of timings?.variants ?? []) costs.set(v.name, { '': v.cost_ms ?? null, ...v.cost_ms_of });
   const pictures = new Map();
   for (const image of parts.images) {
     pictures.set(key(image.kind, image.variant, image.sequence, image.metric, image.frame), image);
@@ -38,8 +38,8 @@ export function read_results() {
       const values = rows.get(key(variant, sequence, metric, frame)) ?? [];
       return values.length ? values.reduce((a, b) => a + b, 0) / values.length : null;
     },
-    // CPU milliseconds a frame, or null where nothing was timed.
-    cost_of: (variant) => costs.get(variant) ?? null,
+    // CPU milliseconds a frame, or null where nothing was timed; `sequence` '' means all of them.
+    cost_of: (variant, sequence = '') => costs.get(variant)?.[sequence] ?? costs.get(variant)?.[''] ?? null,
     picture: (kind, variant, sequence, metric, frame) =>
       pictures.get(key(kind, variant, sequence, metric, frame)),
   };

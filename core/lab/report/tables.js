@@ -65,7 +65,7 @@ function summary_table(results, sequence, statistic, compared) {
         results.summary_of(compared, sequence, metric.name), compared === results.variants[0].name));
     }
     if (timed) {
-      const cost = results.cost_of(variant.name), base = results.cost_of(compared);
+      const cost = results.cost_of(variant.name, sequence), base = results.cost_of(compared, sequence);
       const change = variant.name === compared ? '' : beside(cost, base, 'ms');
       const kind = Math.abs(cost / base - 1) < 0.01 ? 'same' : cost < base ? 'gain' : 'loss';
       cells.push({ value: cost, content: [element('span', { class: 'number' }, number_text(cost)),
@@ -75,7 +75,6 @@ function summary_table(results, sequence, statistic, compared) {
     return { key: variant.name, cells };
   });
   results.metrics.forEach((metric, i) => mark_best(rows, i + 1, (a, b) => better(metric, a, b)));
-  if (timed) mark_best(rows, results.metrics.length + 1, (a, b) => a < b);
   const name = STATISTICS.find(([k]) => k === statistic)[1];
   const frames = results.warm_up ? `frames after the first ${results.warm_up}` : 'frames';
   return sortable_table(`${name} over the ${frames}, ${sequence || 'all sequences'}`, columns, rows);

@@ -109,12 +109,12 @@ TEST(Results, SumUpWhatIsBehindTheWarmUp) {
 }
 
 TEST(Results, AreTablesWithTheBestBoldAndArrows) {
-  const auto markdown = table_markdown(results(), {1.25, 0.5});
+  const auto markdown = table_markdown(results(), {{1.25, 0.5}, {{1.25, 0.5}}});
   EXPECT_NE(markdown.find("# a\\_b\n"), std::string::npos);
   EXPECT_NE(markdown.find("| variant | Low ↓ | High [dB] ↑ | cost [ms] ↓ |\n|---|---:|---:|---:|\n"), std::string::npos)
       << markdown;
   EXPECT_NE(markdown.find("| a,b\\_c | **0.2** ± 0.8 |"), std::string::npos) << markdown;
-  EXPECT_NE(markdown.find("| **0.5** |\n"), std::string::npos) << markdown;
+  EXPECT_NE(markdown.find("| 0.5 |\n"), std::string::npos) << markdown;
   const auto latex = table_latex(results(), {});
   EXPECT_NE(latex.find("Variant & Low $\\downarrow$ & High [dB] $\\uparrow$ \\\\\n"), std::string::npos) << latex;
   EXPECT_NE(latex.find("a,b\\_c & \\textbf{0.2} $\\pm$ 0.8"), std::string::npos) << latex;
