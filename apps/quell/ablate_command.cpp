@@ -87,12 +87,8 @@ int run(const AblateArguments& a) {
   const auto study = load_study({a.study, commander.locations().graphs}, commander.diagnostics());
   if (!study) return commander.report();
   const fs::path folder = a.output;
-  Laboratory lab{commander.registry(),
-                 commander.diagnostics(),
-                 commander.locations().graphs,
-                 a.references.empty() ? folder / "references" : fs::path(a.references),
-                 a.threads,
-                 &cancel};
+  auto lab =
+      commander.laboratory(a.references.empty() ? folder / "references" : fs::path(a.references), a.threads, &cancel);
   const auto trials = load_trials(*study, a.maps, lab);
   const int code = commander.report();
   if (!trials || code) return code ? code : int(Exit::usage);

@@ -203,6 +203,10 @@ std::unique_ptr<FrameSource> Commander::open(const Sequence& sequence, const Seq
   return std::make_unique<NodeSource>(std::move(*instance), sequence.frames, sequence.cuts, threads, cancel);
 }
 
+Laboratory Commander::laboratory(std::filesystem::path references, int threads, const std::atomic<bool>* cancel) {
+  return {registry_, diagnostics_, locations_.graphs, std::move(references), threads, cancel};
+}
+
 int Commander::report() {
   if (diagnostics_.ok())
     for (const auto& p : registry_.problems())

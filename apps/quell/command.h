@@ -4,6 +4,7 @@
 #include "apps/quell/locations.h"
 
 #include "core/graph/load.h"
+#include "core/lab/trial.h"
 #include "core/plugin/registry.h"
 #include "core/report/diagnostics.h"
 #include "core/report/error.h"
@@ -13,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include <atomic>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,6 +59,8 @@ class Commander {
   // Opens the frames for what the graph reads.
   std::unique_ptr<FrameSource> open(const Sequence&, const SequenceOptions&, const std::vector<std::string>& roles,
                                     int threads, const std::atomic<bool>* cancel);
+  // What studies, suites and searches run with; `references` is where those are kept that a node makes, "" for nowhere.
+  Laboratory laboratory(std::filesystem::path references, int threads, const std::atomic<bool>* cancel);
   // Prints what was collected to stderr and gives the exit code of the worst of it. Plugins that were passed over
   // because they would not load are warned about.
   int report();

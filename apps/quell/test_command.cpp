@@ -99,10 +99,8 @@ std::vector<std::size_t> chosen(const Suite& suite, const std::vector<std::strin
     if (only.empty() || std::ranges::any_of(only, [&](const auto& o) { return suite.tests[i].name.find(o) != o.npos; }))
       all.push_back(i);
   if (!all.empty()) return all;
-  std::vector<std::string> names;
-  for (const auto& t : suite.tests) names.push_back(t.name);
   throw Error(Exit::usage, fmt::format("--only {}: no test is called so\n  {}", only[0],
-                                       possibilities("there are", only[0], names)));
+                                       possibilities("there are", only[0], names_of(suite.tests))));
 }
 
 int run(const TestArguments& a) {
@@ -114,7 +112,7 @@ int run(const TestArguments& a) {
   const Printer printer(diagnostics.sources, a.junit == "-");
   if (!a.junit.empty() && a.junit != "-") check_writable(a.junit);
   if (!suite) return refuse(a, commander, printer);
-  Laboratory lab{commander.registry(), diagnostics, commander.locations().graphs, a.references, a.threads, &cancel};
+  auto lab = commander.laboratory(a.references, a.threads, &cancel);
   // All are read before the first is run: a mistake in the last would else be found when the others have taken their
   // time.
   const auto tests = chosen(*suite, a.only);

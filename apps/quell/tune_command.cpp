@@ -94,12 +94,8 @@ int run(const TuneArguments& a) {
   const auto tuning = load_tuning(a.tuning, commander.locations().graphs, commander.diagnostics());
   if (!tuning) return commander.report();
   const fs::path folder = a.output;
-  Laboratory lab{commander.registry(),
-                 commander.diagnostics(),
-                 commander.locations().graphs,
-                 a.references.empty() ? folder / "references" : fs::path(a.references),
-                 a.threads,
-                 &cancel};
+  auto lab =
+      commander.laboratory(a.references.empty() ? folder / "references" : fs::path(a.references), a.threads, &cancel);
   TunerOptions options;
   options.run.threads = a.threads;
   options.run.cancel = &cancel;

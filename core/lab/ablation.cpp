@@ -2,10 +2,10 @@
 #include "core/lab/ablation.h"
 
 #include "core/graph/write.h"
-#include "core/lab/digest.h"
 #include "core/lab/edits.h"
 #include "core/report/error.h"
 #include "core/run/memory_limit.h"
+#include "core/sequence/file_hash.h"
 #include "core/sequence/frame_range.h"
 #include "core/sequence/temporary_file.h"
 
@@ -100,7 +100,8 @@ class StudyRun {
         fmt::format("quell {} {}\n{}", options_.version, options_.simd, trials_[s].identity(study_.seeds, seed));
     for (const auto& metric : trials_[s].metrics()) common += fmt::format("metric {}\n", metric.name);
     std::vector<std::string> keys;
-    for (const auto& variant : trials_[s].variants()) keys.push_back(digest(common + fingerprint_text(variant.graph)));
+    for (const auto& variant : trials_[s].variants())
+      keys.push_back(text_hash(common + fingerprint_text(variant.graph)));
     return keys;
   }
 

@@ -1,8 +1,8 @@
 // Chunks: short enough that little is lost with the process, long enough that keeping the history costs nothing.
 #include "core/lab/group_run.h"
 
-#include "core/lab/frame_slice.h"
 #include "core/report/error.h"
+#include "core/sequence/excerpt.h"
 
 #include <algorithm>
 #include <chrono>
@@ -58,7 +58,7 @@ void run_group(const Group& group, FrameSource& source, JournalPart part, const 
   std::size_t chunk = kFirstChunk;
   for (std::size_t next = part.entries.front().numbers.size(); next < frames.size();) {
     const std::size_t end = std::min(frames.size(), next + chunk);
-    FrameSlice slice(source, next, end);
+    Excerpt slice(source, {frames.begin() + std::ptrdiff_t(next), frames.begin() + std::ptrdiff_t(end)});
     RunOptions run = options.run;
     const bool keep = end < frames.size() && goes_on(end);
     if (!part.state.empty()) run.load_state = journal.state_file(next).parent_path() / part.state;

@@ -1,9 +1,9 @@
 // A source whose images are kept on disk.
 #include "core/lab/kept_source.h"
 
-#include "core/lab/digest.h"
 #include "core/report/error.h"
 #include "core/run/named_files.h"
+#include "core/sequence/file_hash.h"
 #include "core/sequence/image_file.h"
 #include "core/sequence/image_writer.h"
 
@@ -66,15 +66,14 @@ void KeptSource::read(std::int64_t frame, std::span<const std::string> roles, st
 std::string node_identity(Instance node) {
   for (std::size_t p = 0; p < node.type().params().size(); ++p)
     if (node.type().params()[p].kind == QUELL_PATH)
-      if (const auto file = std::string(node.get_text(int(p))); !file.empty())
-        node.set_text(int(p), digest_of_file(file));
+      if (const auto file = std::string(node.get_text(int(p))); !file.empty()) node.set_text(int(p), file_hash(file));
   return fmt::format("{} {} {}\n", node.type().name(), node.type().version(), node.describe());
 }
 
 std::unique_ptr<FrameSource> keep_reference(std::unique_ptr<NodeSource> source, const Instance& node,
                                             const std::filesystem::path& references) {
   if (references.empty()) return source;
-  return std::make_unique<KeptSource>(std::move(source), "color", references / digest(node_identity(node)),
+  return std::make_unique<KeptSource>(std::move(source), "color", references / text_hash(node_identity(node)),
                                       named_files("source", node));
 }
 

@@ -64,6 +64,7 @@ GraphRequest request_of(const StudyVariant& variant, const Laboratory& lab) {
   return request;
 }
 
+// Not by what they hold: every frame would have to be read before it is known that none is needed.
 std::string describe(const SequenceInput& input, std::span<const std::int64_t> frames) {
   std::string text = fmt::format("{}\n", input.role);
   for (const auto frame : frames) {
@@ -156,12 +157,10 @@ bool Trial::load_frames(Laboratory& lab) {
   }
   const int param = source_->type().find_param(seeds.parameter);
   if (param >= 0 && source_->type().params()[std::size_t(param)].kind == QUELL_INT) return true;
-  std::vector<std::string> names;
-  for (const auto& p : source_->type().params()) names.emplace_back(p.name);
   lab.diagnostics.error(seeds.position, "seeds",
                         fmt::format("'{}', which makes the sequence '{}', has no whole number '{}'",
                                     source_->type().name(), s.name, seeds.parameter),
-                        {possibilities("it has", seeds.parameter, names)});
+                        {possibilities("it has", seeds.parameter, names_of(source_->type().params()))});
   return false;
 }
 
@@ -257,8 +256,7 @@ std::optional<JudgedGraph> Trial::judged(const StudyVariant& variant, bool maps,
     scoped.inner.error(variant.position, variant.where, std::move(text), std::move(notes));
     return std::nullopt;
   };
-  std::vector<std::string> names;
-  for (const auto& o : graph->outputs) names.push_back(o.name);
+  const auto names = names_of(graph->outputs);
   auto judged = graph->outputs.begin();
   if (!study_->output.empty())
     judged = std::ranges::find(graph->outputs, study_->output, &GraphOutput::name);

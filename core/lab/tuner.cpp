@@ -2,7 +2,6 @@
 #include "core/lab/tuner.h"
 
 #include "core/graph/write.h"
-#include "core/lab/digest.h"
 #include "core/lab/edits.h"
 #include "core/lab/group_run.h"
 #include "core/lab/range.h"
@@ -10,6 +9,7 @@
 #include "core/lab/threshold.h"
 #include "core/report/error.h"
 #include "core/run/provenance.h"
+#include "core/sequence/file_hash.h"
 #include "core/sequence/temporary_file.h"
 
 #include <fmt/format.h>
@@ -164,7 +164,7 @@ bool Tuner::check() {
       key_ += trial->identity(std::nullopt, 0) + fingerprint(trial->variants().front().graph);
     }
   }
-  key_ = digest(tuning_.text + key_);
+  key_ = text_hash(tuning_.text + key_);
   return lab_.diagnostics.ok();
 }
 

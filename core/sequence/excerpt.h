@@ -3,13 +3,16 @@
 
 #include "core/sequence/frame_source.h"
 
+#include <utility>
 #include <vector>
 
 namespace quell {
 
 class Excerpt : public FrameSource {
  public:
-  // Frames `first` to `last`, which the source has, in its order. The source outlives this.
+  // These, which the source has. The source outlives this.
+  Excerpt(FrameSource& source, std::vector<std::int64_t> frames) : source_(source), frames_(std::move(frames)) {}
+  // Those from `first` to `last`, in the source's order.
   Excerpt(FrameSource& source, std::int64_t first, std::int64_t last) : source_(source) {
     for (const auto frame : source.frames())
       if (frame >= first && frame <= last) frames_.push_back(frame);
