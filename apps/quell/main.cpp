@@ -69,7 +69,7 @@ int run(int argc, char** argv) {
       "  quell check my_graph.json\n"
       "`quell SUBCOMMAND --help` has more.\n\n"
       "Exit codes: 0 good, 1 a threshold or comparison failed, 2 usage or graph error, 3 input missing or corrupt,\n"
-      "4 plugin, 5 resources, 130 interrupted.\n"
+      "4 plugin, 5 resources, 130 interrupted (143: by SIGTERM).\n"
       "Environment: QUELL_PLUGINS, folders of plugins with colons between; QUELL_GRAPHS, the folder of installed "
       "graphs.");
   int exit = 0;
