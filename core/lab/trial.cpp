@@ -308,8 +308,7 @@ void Trial::check_frames(Laboratory& lab) const {
   // A frame that all is there of.
   const auto frame = reference_frames_.empty() ? source->frames().front() : *reference_frames_.begin();
   for (const auto& variant : variants_) {
-    std::vector<std::string> roles;
-    for (const auto& input : variant.graph.inputs) roles.push_back(input.name);
+    const auto roles = names_of(variant.graph.inputs);
     const auto shapes = source->shapes(frame, roles);
     try {
       const Plan plan(variant.graph, shapes, {false, false});

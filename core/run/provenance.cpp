@@ -3,6 +3,7 @@
 
 #include "core/graph/write.h"
 #include "core/report/shell.h"
+#include "core/report/suggest.h"
 #include "core/run/named_files.h"
 #include "core/sequence/file_hash.h"
 
@@ -26,16 +27,10 @@ std::string whole_path(const fs::path& path) {
   return fs::absolute(path, error).lexically_normal().string();
 }
 
-std::vector<std::string> roles_of(const Graph& graph) {
-  std::vector<std::string> roles;
-  for (const auto& input : graph.inputs) roles.push_back(input.name);
-  return roles;
-}
-
 }  // namespace
 
 std::string plugin_versions(const Graph& graph, const FrameSource& source) {
-  auto versions = source.plugins(roles_of(graph));
+  auto versions = source.plugins(names_of(graph.inputs));
   for (const auto& node : graph.nodes)
     if (!node.preview) versions.emplace(node.type().name(), node.type().version());
   std::vector<std::string> texts;
@@ -46,7 +41,7 @@ std::string plugin_versions(const Graph& graph, const FrameSource& source) {
 std::string short_hash(const std::string& inputs) { return text_hash(inputs).substr(8); }
 
 Provenance::Provenance(const Graph& graph, const FrameSource& source, const FileLog& log, const Run& run)
-    : log_(&log), roles_(roles_of(graph)), looks_back_(graph.looks_back()) {
+    : log_(&log), roles_(names_of(graph.inputs)), looks_back_(graph.looks_back()) {
   const auto written = write_graph(graph, run.graphs);
   texts_ = {{"Software", "quell " QUELL_VERSION},
             {"quell:version", QUELL_VERSION},
